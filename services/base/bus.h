@@ -1,0 +1,82 @@
+// Typed publish and subscribe over LCM. Whatever arrives is checked before a handler sees it; what fails
+// is counted by reason, logged, and the process lives on. No exception crosses LCM.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lcmtypes/codec.h"
+#include "services/base/result.h"
+
+namespace lcm {
+class LCM;
+class Subscription;
+}  // namespace lcm
+
+namespace beckon {
+
+/// Everything on this machine, nothing beyond it, and a receive buffer that holds frames (Debian's
+/// default loses any message over about 200 kB at 30 Hz).
+inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152";
+
+class Bus {
+ public:
+  /// `url` as LCM takes it (udpm://, memq://, file://).
+  static Result<std::unique_ptr<Bus>> Open(const std::string& url);
+  ~Bus();
+
+  /// Sends a message on its type's channel; refuses values that break the type's rules or its size.
+  template <typename T>
+  Status Publish(const T& message) {
+    auto bytes = Codec<T>::Encode(message);
+    if (!bytes) return bytes.error();
+    return PublishBytes(Codec<T>::kChannel, *bytes);
+  }
+
+  /// Calls `handler` with each valid message of the type. `queue` messages may wait; frames take 1,
+  /// state and commands the default.
+  template <typename T>
+  void Subscribe(std::function<void(T)> handler, int queue = 30) {
+    SubscribeBytes(Codec<T>::kChannel, queue,
+                   [this, handler = std::move(handler)](std::span<const uint8_t> bytes) {
+                     auto message = Codec<T>::Decode(bytes);
+                     if (!message) return Refuse(Codec<T>::kChannel, message.error().message);
+                     handler(*std::move(message));
+                   });
+  }
+
+  /// Counts and logs something refused; services use it for messages that are well formed but wrong
+  /// (a stale answer). `reason` is a short key, `detail` is for people.
+  void Refuse(const std::string& channel, const std::string& detail);
+
+  /// For RunLoop::AddFd: readable when HandleReadable has something to do.
+  int fd() const;
+  void HandleReadable();
+
+  /// Messages received, and those refused, since the start.
+  int64_t received() const { return received_; }
+  int64_t refused() const { return refused_; }
+  /// Refusals by channel.
+  const std::map<std::string, int64_t>& refused_by_channel() const { return refused_by_channel_; }
+
+ private:
+  using BytesHandler = std::function<void(std::span<const uint8_t>)>;
+  struct Handler;
+
+  explicit Bus(std::unique_ptr<lcm::LCM> lcm);
+  Status PublishBytes(const char* channel, const std::vector<uint8_t>& bytes);
+  void SubscribeBytes(const char* channel, int queue, BytesHandler handler);
+
+  std::unique_ptr<lcm::LCM> lcm_;
+  std::vector<std::unique_ptr<Handler>> handlers_;
+  int64_t received_ = 0;
+  int64_t refused_ = 0;
+  std::map<std::string, int64_t> refused_by_channel_;
+};
+
+}  // namespace beckon

@@ -1,0 +1,28 @@
+#include "services/base/utime.h"
+
+#include <chrono>
+
+namespace beckon {
+namespace {
+
+int64_t MonotonicNanoseconds() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+Utime SystemClock::Now() const {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+Stopwatch::Stopwatch() : start_ns_(MonotonicNanoseconds()) {}
+
+double Stopwatch::Milliseconds() const {
+  return static_cast<double>(MonotonicNanoseconds() - start_ns_) * 1e-6;
+}
+
+}  // namespace beckon
