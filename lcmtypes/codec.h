@@ -10,9 +10,10 @@
 
 namespace beckon {
 
-/// kChannel: where the type travels. Encode refuses values that break the type's rules (counts, ranges,
-/// non-finite numbers, more than kMaxDatagram for all but frames). Decode refuses bytes that are not
-/// exactly one message of the type (fingerprint, lengths, trailing bytes) or whose values break the rules.
+/// kChannel: where the type travels. Encode refuses values that break the type's rules (counts,
+/// ranges, non-finite numbers, more than kMaxDatagram for all but frames). Decode refuses bytes
+/// that are not exactly one message of the type (fingerprint, lengths, trailing bytes) or whose
+/// values break the rules.
 template <typename T>
 struct Codec;
 

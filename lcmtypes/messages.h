@@ -1,5 +1,5 @@
-// Plain structs of every message: what services work with. The .lcm files document each field (units,
-// frames, ranges); codec.h converts and validates.
+// Plain structs of every message: what services work with. The .lcm files document each field
+// (units, frames, ranges); codec.h converts and validates.
 #pragma once
 
 #include <Eigen/Geometry>

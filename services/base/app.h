@@ -1,5 +1,5 @@
-// What every Beckon program has in common: --version --config --check-config --lcm-url --verbose, and
-// exit codes: 0 done, 1 broken invariant, 2 bad input (one clear line on standard error).
+// What every Beckon program has in common: --version --config --check-config --lcm-url --verbose,
+// and exit codes: 0 done, 1 broken invariant, 2 bad input (one clear line on standard error).
 #pragma once
 
 #include <functional>
@@ -27,15 +27,16 @@ const char* VersionString();
 /// Adds the common options to `app`; values land in `options`.
 void AddAppOptions(CLI::App& app, AppOptions& options);
 
-/// Runs a program: parses argv with `app`, then calls `body`. Maps parse errors, a failed Status and
-/// exceptions to one line on standard error and an exit code.
-int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options, const std::function<Status()>& body);
+/// Runs a program: parses argv with `app`, then calls `body`. Maps parse errors, a failed Status
+/// and exceptions to one line on standard error and an exit code.
+int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options,
+           const std::function<Status()>& body);
 
 /// Loads the --config file (empty table without one).
 Result<ConfigTable> LoadConfig(const AppOptions& options);
 
-/// A file that ships with Beckon (e.g. "affordances.toml"): from $BECKON_SHARE, else beside the installed
-/// program (../share/beckon, in the build tree too).
+/// A file that ships with Beckon (e.g. "affordances.toml"): from $BECKON_SHARE, else beside the
+/// installed program (../share/beckon, in the build tree too).
 std::string SharedFile(const std::string& name);
 
 }  // namespace beckon

@@ -1,5 +1,5 @@
-// Typed publish and subscribe over LCM. Whatever arrives is checked before a handler sees it; what fails
-// is counted by reason, logged, and the process lives on. No exception crosses LCM.
+// Typed publish and subscribe over LCM. Whatever arrives is checked before a handler sees it; what
+// fails is counted by reason, logged, and the process lives on. No exception crosses LCM.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Reading point clouds from files: PCD (ascii, binary, binary_compressed), PLY (ascii, binary little and
-// big endian) and XYZ text.
+// Reading point clouds from files: PCD (ascii, binary, binary_compressed), PLY (ascii, binary
+// little and big endian) and XYZ text.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace beckon {
 
-/// Reads a cloud; the format is told by the extension (.pcd .ply .xyz). Recognised fields: x y z, rgb /
-/// rgba (PCD), red green blue (PLY), label; others are skipped. At most 50 million points. Truncated,
-/// garbled, empty or all-NaN files fail with the file's name, what was expected and where.
+/// Reads a cloud; the format is told by the extension (.pcd .ply .xyz). Recognised fields: x y z,
+/// rgb / rgba (PCD), red green blue (PLY), label; others are skipped. At most 50 million points.
+/// Truncated, garbled, empty or all-NaN files fail with the file's name, what was expected and
+/// where.
 Result<Cloud> ReadCloudFile(const std::string& path);
 
 /// Writes a binary PCD with fields x y z, rgba where colours are there, label where labels are.

@@ -1,5 +1,6 @@
-// Strict TOML configuration: defaults live in each service's struct, a file over them, flags over that.
-// A key nobody asked for, a wrong type or a value out of range is an error that names file and line.
+// Strict TOML configuration: defaults live in each service's struct, a file over them, flags over
+// that. A key nobody asked for, a wrong type or a value out of range is an error that names file
+// and line.
 #pragma once
 
 #include <limits>
@@ -22,7 +23,8 @@ class ConfigTable {
   /// The sub-table [key]; empty where it is absent.
   ConfigTable Section(const std::string& key);
 
-  /// Each replaces `value` where the key is there and right, and records an error where it is wrong.
+  /// Each replaces `value` where the key is there and right, and records an error where it is
+  /// wrong.
   void Get(const std::string& key, double& value, double min = -std::numeric_limits<double>::max(),
            double max = std::numeric_limits<double>::max());
   void Get(const std::string& key, int& value, int min = std::numeric_limits<int>::min(),
@@ -41,13 +43,14 @@ class ConfigTable {
   /// Records an error of the caller's own about a key.
   void Fail(const std::string& key, const std::string& what);
 
-  /// The first error of the whole file: a wrong value, else a key that nobody read (with the nearest
-  /// known key as a suggestion). Call once, after all sections were read.
+  /// The first error of the whole file: a wrong value, else a key that nobody read (with the
+  /// nearest known key as a suggestion). Call once, after all sections were read.
   Status Finish() const;
 
  private:
   struct File;
-  ConfigTable(std::shared_ptr<File> file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+  ConfigTable(std::shared_ptr<File> file, std::string path)
+      : file_(std::move(file)), path_(std::move(path)) {}
 
   std::shared_ptr<File> file_;
   std::string path_;  // dotted, of this table; empty at the root

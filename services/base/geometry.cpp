@@ -6,10 +6,12 @@ namespace beckon {
 
 Status Validate(const Intrinsics& k) {
   for (double f : {k.fx, k.fy}) {
-    if (!(f >= 10 && f <= 1e5)) return Error{"focal length " + std::to_string(f) + " px: expected 10 .. 100000"};
+    if (!(f >= 10 && f <= 1e5))
+      return Error{"focal length " + std::to_string(f) + " px: expected 10 .. 100000"};
   }
   for (double c : {k.cx, k.cy}) {
-    if (!(std::abs(c) <= 1e5)) return Error{"principal point " + std::to_string(c) + " px: expected a finite pixel"};
+    if (!(std::abs(c) <= 1e5))
+      return Error{"principal point " + std::to_string(c) + " px: expected a finite pixel"};
   }
   return {};
 }

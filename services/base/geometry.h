@@ -42,16 +42,17 @@ struct Intrinsics {
 /// Refuses intrinsics that no camera has: non-finite, focal lengths outside 10..100000 px.
 Status Validate(const Intrinsics& intrinsics);
 
-/// From a position and a quaternion w x y z, as messages and files carry it; refuses non-finite values
-/// and a quaternion whose norm is off 1 by more than 1e-3.
+/// From a position and a quaternion w x y z, as messages and files carry it; refuses non-finite
+/// values and a quaternion whose norm is off 1 by more than 1e-3.
 Result<Pose> MakePose(const std::array<double, 3>& position, const std::array<double, 4>& wxyz);
 
 /// The unit quaternion w x y z of a pose, with w >= 0.
 std::array<double, 4> QuaternionWxyz(const Pose& pose);
 
-/// The camera's pose in the world frame that a table defines: z = the table's normal, origin = foot of
-/// the camera's perpendicular on the table, y = the viewing direction along the table, x = right.
-/// `table_C`: normal pointing to the camera. A camera looking straight down takes its image's up as y.
+/// The camera's pose in the world frame that a table defines: z = the table's normal, origin = foot
+/// of the camera's perpendicular on the table, y = the viewing direction along the table, x =
+/// right. `table_C`: normal pointing to the camera. A camera looking straight down takes its
+/// image's up as y.
 Pose WorldFromTable(const Plane& table_C);
 
 }  // namespace beckon

@@ -1,5 +1,5 @@
-// A worker thread that always takes the newest input: a slow computation skips what it cannot keep up
-// with, and counts it, instead of falling behind.
+// A worker thread that always takes the newest input: a slow computation skips what it cannot keep
+// up with, and counts it, instead of falling behind.
 #pragma once
 
 #include <condition_variable>

@@ -1,5 +1,5 @@
-// A value or the reason why there is none. Expected failures are values in Beckon; exceptions are for
-// broken invariants.
+// A value or the reason why there is none. Expected failures are values in Beckon; exceptions are
+// for broken invariants.
 #pragma once
 
 #include <cassert>

@@ -40,14 +40,14 @@ struct Cloud {
   bool organised() const { return height > 1; }
 };
 
-/// The pinhole camera an organised cloud was taken with, by least squares of x/z over u and y/z over v.
-/// Fails where fewer than 100 points have depth or the points do not lie on pixel rays.
+/// The pinhole camera an organised cloud was taken with, by least squares of x/z over u and y/z
+/// over v. Fails where fewer than 100 points have depth or the points do not lie on pixel rays.
 Result<Intrinsics> EstimateIntrinsics(const Cloud& organised);
 
 /// An image from a cloud: an organised one keeps its grid (with `intrinsics`, else estimated ones);
-/// an unorganised one is projected onto 640x480 with `intrinsics`, or f 525 px, c (319.5, 239.5), the
-/// nearest point winning a pixel. `labels`, where not null, receives the cloud's labels on the grid.
-/// Fails where no point has a finite position in front of the camera.
+/// an unorganised one is projected onto 640x480 with `intrinsics`, or f 525 px, c (319.5, 239.5),
+/// the nearest point winning a pixel. `labels`, where not null, receives the cloud's labels on the
+/// grid. Fails where no point has a finite position in front of the camera.
 Result<RgbdImage> ToImage(const Cloud& cloud, const Intrinsics* intrinsics = nullptr,
                           std::vector<uint32_t>* labels = nullptr);
 

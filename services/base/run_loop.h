@@ -8,9 +8,10 @@
 
 namespace beckon {
 
-/// epoll with timers. All callbacks run in the thread that calls Run; only Post and Stop may be called
-/// from others. SIGINT and SIGTERM stop the loop in the process that constructed it with
-/// `handle_signals` (construct it before starting threads: the signals are blocked for all of them).
+/// epoll with timers. All callbacks run in the thread that calls Run; only Post and Stop may be
+/// called from others. SIGINT and SIGTERM stop the loop in the process that constructed it with
+/// `handle_signals` (construct it before starting threads: the signals are blocked for all of
+/// them).
 class RunLoop {
  public:
   using Callback = std::function<void()>;
@@ -25,8 +26,8 @@ class RunLoop {
   void AddFd(int fd, Callback readable);
   void RemoveFd(int fd);
 
-  /// Calls back once after, or repeatedly every, `period_us` (>= 1).
-  TimerId After(Utime period_us, Callback callback);
+  /// Calls back once after `delay_us`, or repeatedly every `period_us` (>= 1).
+  TimerId After(Utime delay_us, Callback callback);
   TimerId Every(Utime period_us, Callback callback);
   void Cancel(TimerId timer);
 

@@ -10,11 +10,12 @@
 
 namespace beckon {
 
-/// While it lives, publishes what `fill` adds (state line, counters) to name, host, pid, build, messages
-/// received and refused, resident memory.
+/// While it lives, publishes what `fill` adds (state line, counters) to name, host, pid, build,
+/// messages received and refused, resident memory.
 class StatusReporter {
  public:
-  StatusReporter(std::string service, Bus& bus, RunLoop& loop, std::function<void(msg::Status&)> fill);
+  StatusReporter(std::string service, Bus& bus, RunLoop& loop,
+                 std::function<void(msg::Status&)> fill);
   ~StatusReporter();
 
  private:

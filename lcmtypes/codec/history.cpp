@@ -1,0 +1,117 @@
+// HISTORY: what each machine has of everybody's rows, and rows that others lack.
+#include <zlib.h>
+
+#include <beckon/history_t.hpp>
+
+#include "lcmtypes/codec.h"
+#include "lcmtypes/codec/message.h"
+#include "lcmtypes/codec/parts.h"
+
+namespace beckon {
+namespace codec {
+
+constexpr int kMaxEntries = 256;
+constexpr int kMaxBody = 8192;
+
+static void Walk(Walker& w, const history_t*) {
+  w.Skip(8);
+  w.String("machine", kMaxName);
+  const int32_t digests = w.Count("n_digests", kMaxEntries);
+  for (int32_t i = 0; i < digests && w.ok(); ++i) {
+    w.String("origin", kMaxName);
+    w.Skip(8 + 8);
+  }
+  const int32_t rows = w.Count("n_rows", kMaxEntries);
+  for (int32_t i = 0; i < rows && w.ok(); ++i) {
+    w.String("origin", kMaxName);
+    w.Skip(8);
+    w.String("kind", kMaxName);
+    w.String("body", kMaxBody);
+    w.Skip(4);
+  }
+  Walk(w, static_cast<const seal_t*>(nullptr));
+}
+
+static Status Check(const msg::History& history) {
+  Rules rules("history");
+  rules.Time(history.utime)
+      .Name(history.machine, "machine")
+      .Count(history.digests.size(), "digests", kMaxEntries)
+      .Count(history.rows.size(), "rows", kMaxEntries)
+      .Require(Check(history.seal));
+  for (const auto& digest : history.digests) {
+    rules.Name(digest.origin, "origin").Require(digest.highest_seq >= 0, "highest_seq is negative");
+  }
+  for (const auto& row : history.rows) {
+    rules.Name(row.origin, "origin")
+        .Require(row.seq >= 1, "seq is below 1")
+        .Name(row.kind, "kind")
+        .Name(row.body, "body", kMaxBody);
+  }
+  return rules;
+}
+
+int32_t Checksum(const msg::HistoryRow& row) {
+  uLong crc = 0;
+  const std::string seq = std::to_string(row.seq);
+  // The terminating zeros keep ("ab", "c") and ("a", "bc") apart.
+  for (const std::string* part : {&row.origin, &seq, &row.kind, &row.body}) {
+    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(part->c_str()), part->size() + 1);
+  }
+  return static_cast<int32_t>(crc);
+}
+
+static history_t ToWire(const msg::History& history) {
+  history_t wire{};
+  wire.utime = history.utime;
+  wire.machine = history.machine;
+  wire.n_digests = static_cast<int32_t>(history.digests.size());
+  for (const auto& digest : history.digests) {
+    history_digest_t d{};
+    d.origin = digest.origin;
+    d.highest_seq = digest.highest_seq;
+    d.checksum = digest.checksum;
+    wire.digests.push_back(d);
+  }
+  wire.n_rows = static_cast<int32_t>(history.rows.size());
+  for (const auto& row : history.rows) {
+    history_row_t r{};
+    r.origin = row.origin;
+    r.seq = row.seq;
+    r.kind = row.kind;
+    r.body = row.body;
+    r.crc = Checksum(row);
+    wire.rows.push_back(r);
+  }
+  wire.seal = ToWire(history.seal);
+  return wire;
+}
+
+static Result<msg::History> FromWire(const history_t& wire) {
+  msg::History history;
+  history.utime = wire.utime;
+  history.machine = wire.machine;
+  for (const auto& d : wire.digests)
+    history.digests.push_back({d.origin, d.highest_seq, d.checksum});
+  for (const auto& r : wire.rows) {
+    msg::HistoryRow row{r.origin, r.seq, r.kind, r.body};
+    if (Checksum(row) != r.crc)
+      return Error{"row " + std::to_string(r.seq) + " of " + r.origin + ": checksum differs"};
+    history.rows.push_back(std::move(row));
+  }
+  history.seal = FromWire(wire.seal);
+  return history;
+}
+
+}  // namespace codec
+
+Result<std::vector<uint8_t>> Codec<msg::History>::Encode(const msg::History& value) {
+  return codec::EncodeMessage<history_t>(value, codec::Check, codec::ToWire);
+}
+
+Result<msg::History> Codec<msg::History>::Decode(std::span<const uint8_t> bytes) {
+  return codec::DecodeMessage<history_t, msg::History>(bytes, codec::Walk, codec::FromWire,
+                                                       codec::Check);
+}
+
+}  // namespace beckon

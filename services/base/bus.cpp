@@ -1,0 +1,65 @@
+#include "services/base/bus.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <lcm/lcm-cpp.hpp>
+
+namespace beckon {
+
+/// What one subscription hands to LCM; lives as long as the bus.
+struct Bus::Handler {
+  Bus* bus;
+  BytesHandler handle;
+
+  // Called from LCM's C code: nothing may be thrown through it.
+  void OnMessage(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    ++bus->received_;
+    try {
+      handle({static_cast<const uint8_t*>(buffer->data), buffer->data_size});
+    } catch (const std::exception& e) {
+      bus->Refuse(channel, std::string("handler failed: ") + e.what());
+    }
+  }
+};
+
+Result<std::unique_ptr<Bus>> Bus::Open(const std::string& url) {
+  auto lcm = std::make_unique<lcm::LCM>(url);
+  if (!lcm->good()) {
+    return Error{"LCM cannot open '" + url + "': expected e.g. " + kDefaultLcmUrl +
+                 "; for udpm:// the machine needs a multicast route "
+                 "(ip route add 224.0.0.0/4 dev lo), see 'beckon doctor'"};
+  }
+  return std::unique_ptr<Bus>(new Bus(std::move(lcm)));
+}
+
+Bus::Bus(std::unique_ptr<lcm::LCM> lcm) : lcm_(std::move(lcm)) {}
+Bus::~Bus() = default;
+
+void Bus::Refuse(const std::string& channel, const std::string& detail) {
+  ++refused_;
+  const int64_t count = ++refused_by_channel_[channel];
+  // The first few, then each power of two: a flood must not fill the log.
+  if (count <= 8 || (count & (count - 1)) == 0) {
+    spdlog::warn("{}: refused message ({} so far): {}", channel, count, detail);
+  }
+}
+
+int Bus::fd() const { return lcm_->getFileno(); }
+
+void Bus::HandleReadable() { lcm_->handleTimeout(0); }
+
+Status Bus::PublishBytes(const char* channel, const std::vector<uint8_t>& bytes) {
+  if (lcm_->publish(channel, bytes.data(), static_cast<unsigned>(bytes.size())) != 0) {
+    return Error{std::string(channel) + ": LCM could not send " + std::to_string(bytes.size()) +
+                 " bytes"};
+  }
+  return {};
+}
+
+void Bus::SubscribeBytes(const char* channel, int queue, BytesHandler handler) {
+  handlers_.push_back(std::make_unique<Handler>(Handler{this, std::move(handler)}));
+  lcm_->subscribe(channel, &Handler::OnMessage, handlers_.back().get())->setQueueCapacity(queue);
+}
+
+}  // namespace beckon
