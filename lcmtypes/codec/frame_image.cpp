@@ -16,21 +16,50 @@ cv::Mat View(const std::vector<Rgb>& colour, int width, int height) {
   return {height, width, CV_8UC3, const_cast<Rgb*>(colour.data())};
 }
 
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+
+int BigEndian16(const std::vector<uint8_t>& bytes, size_t at) {
+  return bytes[at] << 8 | bytes[at + 1];
+}
+
+/// The size a PNG (its IHDR chunk) or a JPEG (its start-of-frame segment) claims; 0 x 0 for
+/// anything else. Known before decoding, so that a small file cannot claim gigabytes.
+ImageSize ClaimedSize(const std::vector<uint8_t>& bytes) {
+  constexpr size_t kPngHeader = 24;
+  if (bytes.size() >= kPngHeader && bytes[0] == 0x89 && bytes[1] == 'P') {
+    if (BigEndian16(bytes, 16) != 0 || BigEndian16(bytes, 20) != 0) return {};
+    return {BigEndian16(bytes, 18), BigEndian16(bytes, 22)};
+  }
+  if (bytes.size() < 2 || BigEndian16(bytes, 0) != 0xffd8) return {};
+  for (size_t at = 2; at + 9 <= bytes.size() && bytes[at] == 0xff;) {
+    const int marker = bytes[at + 1];
+    const bool is_frame_start =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (is_frame_start) return {BigEndian16(bytes, at + 7), BigEndian16(bytes, at + 5)};
+    at += 2 + static_cast<size_t>(BigEndian16(bytes, at + 2));
+  }
+  return {};
+}
+
 Result<cv::Mat> Decompress(const std::vector<uint8_t>& bytes, int type, const msg::Frame& frame,
                            const char* name) {
+  const ImageSize claimed = ClaimedSize(bytes);
+  if (claimed.width != frame.width || claimed.height != frame.height) {
+    return Error{std::string("frame: ") + name + " image is " + std::to_string(claimed.width) +
+                 "x" + std::to_string(claimed.height) + ", the frame says " +
+                 std::to_string(frame.width) + "x" + std::to_string(frame.height)};
+  }
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
     return Error{std::string("frame: ") + name + " image does not decode: " + e.err};
   }
-  if (image.empty()) return Error{std::string("frame: ") + name + " image does not decode"};
-  if (image.type() != type)
-    return Error{std::string("frame: ") + name + " image has another pixel type than expected"};
-  if (image.cols != frame.width || image.rows != frame.height) {
-    return Error{std::string("frame: ") + name + " image is " + std::to_string(image.cols) + "x" +
-                 std::to_string(image.rows) + ", the frame says " + std::to_string(frame.width) +
-                 "x" + std::to_string(frame.height)};
+  if (image.type() != type || image.cols != frame.width || image.rows != frame.height) {
+    return Error{std::string("frame: ") + name + " image does not decode to what the frame says"};
   }
   return image;
 }

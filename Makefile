@@ -1,0 +1,32 @@
+# Short verbs for people. Each installs what it needs first (Debian packages, through apt).
+.PHONY: demo test build bench format dependencies help
+
+build_dir := build/release
+
+help:
+	@echo "make demo    see it work: a table of objects, a short conversation, a task for the robot"
+	@echo "make test    build and run every test"
+	@echo "make build   release binaries in $(build_dir)/bin"
+	@echo "make bench   milliseconds per stage, as a table and JSON"
+	@echo "make format  clang-format on every source file"
+
+dependencies:
+	@deploy/install-deps
+
+$(build_dir)/build.ninja: | dependencies
+	cmake --preset release
+
+build: dependencies $(build_dir)/build.ninja
+	cmake --build --preset release
+
+demo: build
+	$(build_dir)/bin/beckon demo --sessions 3 $(DEMO_FLAGS)
+
+test: build
+	ctest --preset release --parallel 2
+
+bench: build
+	bench/run
+
+format: dependencies
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -1,0 +1,63 @@
+#include "services/base/bus.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+namespace beckon {
+namespace {
+
+/// Handles one message, waiting for it.
+void HandleOne(Bus& bus) {
+  pollfd fd{.fd = bus.fd(), .events = POLLIN, .revents = 0};
+  ASSERT_EQ(poll(&fd, 1, 5000), 1) << "nothing arrived";
+  bus.HandleReadable();
+}
+
+msg::TaskStatus Example() {
+  return {.utime = 5, .task_id = "t", .state = msg::TaskState::kDone, .text = "done", .seal = {}};
+}
+
+TEST(Bus, DeliversWhatWasPublished) {
+  auto bus = *Bus::Open("memq://");
+  std::vector<msg::TaskStatus> got;
+  bus->Subscribe<msg::TaskStatus>(
+      [&](msg::TaskStatus status) { got.push_back(std::move(status)); });
+  ASSERT_TRUE(bus->Publish(Example()).ok());
+  HandleOne(*bus);
+  ASSERT_EQ(got.size(), 1u);
+  EXPECT_EQ(got[0].text, "done");
+  EXPECT_EQ(bus->refused(), 0);
+}
+
+TEST(Bus, RefusesToPublishWhatBreaksTheRules) {
+  auto bus = *Bus::Open("memq://");
+  msg::TaskStatus status = Example();
+  status.utime = 0;
+  EXPECT_FALSE(bus->Publish(status).ok());
+}
+
+TEST(Bus, SurvivesAHandlerThatThrows) {
+  auto bus = *Bus::Open("memq://");
+  int calls = 0;
+  bus->Subscribe<msg::TaskStatus>([&](const msg::TaskStatus&) {
+    if (++calls == 1) throw std::runtime_error("broken");
+  });
+  ASSERT_TRUE(bus->Publish(Example()).ok());
+  ASSERT_TRUE(bus->Publish(Example()).ok());
+  HandleOne(*bus);
+  HandleOne(*bus);
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(bus->refused(), 1);
+}
+
+TEST(Bus, SaysWhatIsWrongWithAnUrl) {
+  const auto bus = Bus::Open("carrier-pigeon://");
+  ASSERT_FALSE(bus.ok());
+  EXPECT_THAT(bus.error().message, ::testing::HasSubstr("carrier-pigeon://"));
+}
+
+}  // namespace
+}  // namespace beckon

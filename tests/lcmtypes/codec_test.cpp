@@ -1,0 +1,184 @@
+// Every message: what is sent arrives, what is damaged is refused, nothing crashes.
+#include "lcmtypes/codec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <beckon/answer_t.hpp>
+#include <beckon/frame_t.hpp>
+#include <beckon/history_t.hpp>
+#include <beckon/interface_t.hpp>
+#include <beckon/poses_t.hpp>
+#include <beckon/query_t.hpp>
+#include <beckon/scene_t.hpp>
+#include <beckon/session_t.hpp>
+#include <beckon/status_t.hpp>
+#include <beckon/task_status_t.hpp>
+#include <beckon/task_t.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/lcmtypes/examples.h"
+
+namespace beckon {
+namespace {
+
+using ::testing::HasSubstr;
+
+using Bytes = std::vector<uint8_t>;
+
+/// Calls check(value, bytes) for a valid value of each type.
+template <typename Check>
+void ForEachType(Check check) {
+  std::apply(
+      [&](const auto&... example) {
+        (
+            [&] {
+              const auto bytes = Codec<std::decay_t<decltype(example)>>::Encode(example);
+              ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+              SCOPED_TRACE(Codec<std::decay_t<decltype(example)>>::kChannel);
+              check(example, *bytes);
+            }(),
+            ...);
+      },
+      msg::AllExamples());
+}
+
+TEST(Codec, WhatIsSentArrives) {
+  ForEachType([](const auto& value, const Bytes& bytes) {
+    using T = std::decay_t<decltype(value)>;
+    const auto decoded = Codec<T>::Decode(bytes);
+    ASSERT_TRUE(decoded.ok()) << decoded.error().message;
+    const auto again = Codec<T>::Encode(*decoded);
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(*again, bytes);
+  });
+}
+
+TEST(Codec, RefusesEveryTruncationAndTrailingByte) {
+  ForEachType([](const auto& value, const Bytes& bytes) {
+    using T = std::decay_t<decltype(value)>;
+    for (size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(Codec<T>::Decode(std::span(bytes).first(size)).ok()) << size;
+    }
+    Bytes longer = bytes;
+    longer.push_back(0);
+    EXPECT_FALSE(Codec<T>::Decode(longer).ok());
+  });
+}
+
+TEST(Codec, EveryFlippedBitIsRefusedOrHarmless) {
+  ForEachType([](const auto& value, const Bytes& bytes) {
+    using T = std::decay_t<decltype(value)>;
+    for (size_t i = 0; i < bytes.size() * 8; ++i) {
+      Bytes flipped = bytes;
+      flipped[i / 8] ^= static_cast<uint8_t>(1 << (i % 8));
+      const auto decoded = Codec<T>::Decode(flipped);
+      EXPECT_FALSE(i < 64 && decoded.ok()) << "fingerprint bit " << i;
+      // What is let through keeps the rules: it can be sent again.
+      EXPECT_TRUE(!decoded.ok() || Codec<T>::Encode(*decoded).ok()) << i;
+    }
+  });
+}
+
+TEST(Codec, HostileLengthsAndRandomBytesAreRefused) {
+  std::mt19937 random(1);
+  ForEachType([&](const auto& value, const Bytes& bytes) {
+    using T = std::decay_t<decltype(value)>;
+    for (int round = 0; round < 2000; ++round) {
+      Bytes hostile = bytes;
+      // A length is four bytes somewhere; a huge or negative one may stand anywhere.
+      const size_t at = 8 + random() % (hostile.size() - 11);
+      const uint32_t length = round % 2 == 0 ? 0x7fffffff : 0x80000000 + random() % 1000;
+      for (int i = 0; i < 4; ++i) hostile[at + i] = static_cast<uint8_t>(length >> (24 - 8 * i));
+      const auto decoded = Codec<T>::Decode(hostile);
+      EXPECT_TRUE(!decoded.ok() || Codec<T>::Encode(*decoded).ok());
+      Bytes noise(bytes.begin(), bytes.begin() + 8);
+      for (size_t i = random() % 200; i > 0; --i) noise.push_back(static_cast<uint8_t>(random()));
+      EXPECT_FALSE(Codec<T>::Decode(noise).ok());
+    }
+  });
+}
+
+TEST(Codec, ADamagedFrameIsToldByItsChecksum) {
+  Bytes bytes = *Codec<msg::Frame>::Encode(msg::ExampleFrame());
+  bytes[bytes.size() / 2] ^= 1;
+  const auto decoded = Codec<msg::Frame>::Decode(bytes);
+  ASSERT_FALSE(decoded.ok());
+  EXPECT_THAT(decoded.error().message, HasSubstr("checksum"));
+}
+
+TEST(Codec, ScenePointsKeepATenthOfAMillimetre) {
+  const msg::Scene scene = msg::ExampleScene();
+  const auto decoded = Codec<msg::Scene>::Decode(*Codec<msg::Scene>::Encode(scene));
+  ASSERT_TRUE(decoded.ok());
+  for (size_t i = 0; i < scene.objects[0].points_C.size(); ++i) {
+    EXPECT_LT((decoded->objects[0].points_C[i] - scene.objects[0].points_C[i]).norm(), 1e-4);
+  }
+}
+
+TEST(Codec, AControlMessageFitsADatagram) {
+  msg::History history = msg::ExampleHistory();
+  history.rows.assign(100, history.rows[0]);
+  for (auto& row : history.rows) row.body = std::string(1000, 'x');
+  const auto bytes = Codec<msg::History>::Encode(history);
+  ASSERT_FALSE(bytes.ok());
+  EXPECT_THAT(bytes.error().message, HasSubstr("60000"));
+}
+
+TEST(Codec, RefusesValuesThatBreakTheRules) {
+  const auto refused = []<typename T>(T value, auto break_it) {
+    break_it(value);
+    return !Codec<T>::Encode(value).ok();
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(refused(msg::ExampleAnswer(), [](auto& a) { a.likelihoods = {0, 0}; }));
+  EXPECT_TRUE(refused(msg::ExampleAnswer(), [](auto& a) { a.likelihoods = {-1, 1}; }));
+  EXPECT_TRUE(refused(msg::ExampleAnswer(), [&](auto& a) { a.likelihoods = {nan, 1}; }));
+  EXPECT_TRUE(refused(msg::ExampleAnswer(), [](auto& a) { a.likelihoods = {1}; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.options.clear(); }));
+  EXPECT_TRUE(
+      refused(msg::ExampleQuery(), [](auto& q) { q.kind = static_cast<msg::QueryKind>(99); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.text = "\x1b[2J"; }));
+  EXPECT_TRUE(refused(msg::ExampleSession(), [](auto& s) { s.user = "../../etc"; }));
+  EXPECT_TRUE(
+      refused(msg::ExampleSession(), [](auto& s) { s.kind = static_cast<msg::SessionKind>(8); }));
+  EXPECT_TRUE(refused(msg::ExampleTask(), [](auto& t) { t.expires_utime = t.utime; }));
+  EXPECT_TRUE(refused(msg::ExampleTask(), [&](auto& t) { t.centroid_W.x() = nan; }));
+  EXPECT_TRUE(refused(msg::ExampleTask(), [&](auto& t) { t.pose.X_WO.linear() *= 2; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.objects[1].id = s.objects[0].id; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.objects[0].points_C[0].x() = 9; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.has_table = false; }));
+  EXPECT_TRUE(refused(msg::ExamplePoses(), [](auto& p) { p.poses[0].semi_axes[1] = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.confusion[0][0] = 0.5f; }));
+  EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.seconds_per_question = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleFrame(), [](auto& f) { f.width = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleFrame(), [&](auto& f) { f.intrinsics.fx = nan; }));
+}
+
+// A type that has been logged is superseded, never edited: these numbers do not change.
+TEST(Codec, FingerprintsAreLocked) {
+  const std::map<std::string, uint64_t> now = {{"frame_t", frame_t::getHash()},
+                                               {"scene_t", scene_t::getHash()},
+                                               {"poses_t", poses_t::getHash()},
+                                               {"interface_t", interface_t::getHash()},
+                                               {"query_t", query_t::getHash()},
+                                               {"answer_t", answer_t::getHash()},
+                                               {"session_t", session_t::getHash()},
+                                               {"task_t", task_t::getHash()},
+                                               {"task_status_t", task_status_t::getHash()},
+                                               {"history_t", history_t::getHash()},
+                                               {"status_t", status_t::getHash()}};
+  const std::map<std::string, uint64_t> locked = {
+      {"answer_t", 0xa22727a8afbaf8c6},  {"frame_t", 0x5b22eba1617c64a5},
+      {"history_t", 0xcd16f6d015811a6c}, {"interface_t", 0x8fbf178510e3e991},
+      {"poses_t", 0x4af28811c3ba830f},   {"query_t", 0xcfb20da055f8536a},
+      {"scene_t", 0x332ecbbba7cbfe17},   {"session_t", 0x1e39e1f4c26e2b7c},
+      {"status_t", 0x11a1e4a40922e1e7},  {"task_status_t", 0xc7536171eaec0f69},
+      {"task_t", 0xa2daf734834e4a51}};
+  EXPECT_EQ(now, locked);
+}
+
+}  // namespace
+}  // namespace beckon

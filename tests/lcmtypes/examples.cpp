@@ -1,0 +1,171 @@
+#include "tests/lcmtypes/examples.h"
+
+#include "lcmtypes/frame_image.h"
+
+namespace beckon::msg {
+namespace {
+
+Pose ExamplePose() {
+  Pose pose = Pose::Identity();
+  pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  pose.translation() = Eigen::Vector3d(0.1, 0.6, 0.05);
+  return pose;
+}
+
+Seal ExampleSeal() {
+  Seal seal{.sender = "kitchen/test", .counter = 7, .expires_utime = 99};
+  seal.key_id.fill(3);
+  seal.signature.fill(9);
+  return seal;
+}
+
+ObjectPose ExampleObjectPose() {
+  ObjectPose pose;
+  pose.object_id = 2;
+  pose.X_WO = ExamplePose();
+  pose.semi_axes = {0.03, 0.04, 0.1};
+  pose.epsilon = {0.1, 1.0};
+  pose.taper = {0.1, -0.1};
+  pose.mean_radial_distance_m = 0.001f;
+  pose.converged = true;
+  pose.ambiguous = true;
+  pose.reason = "box or cylinder";
+  pose.covariance.setIdentity();
+  pose.grasps = {{.X_WG = ExamplePose(), .opening_m = 0.08, .score = 0.9f}};
+  pose.fit_ms = 1.5f;
+  return pose;
+}
+
+}  // namespace
+
+Frame ExampleFrame() {
+  RgbdImage image{.width = 8, .height = 6, .intrinsics = {}, .depth_m = {}, .colour = {}};
+  for (int i = 0; i < 48; ++i) {
+    image.depth_m.push_back(i % 7 == 0 ? 0.f : 0.5f + 0.01f * static_cast<float>(i));
+    image.colour.push_back({static_cast<uint8_t>(i * 5), 100, 200});
+  }
+  Frame frame{.utime = 1, .seq = 2, .source = "example"};
+  const auto encoded = EncodeImage(image, 1e-4, 95, frame);
+  (void)encoded;
+  return frame;
+}
+
+Scene ExampleScene() {
+  Scene scene{
+      .utime = 1, .seq = 2, .frame_seq = 3, .source = "example", .width = 640, .height = 480};
+  scene.has_table = true;
+  scene.X_WC = ExamplePose();
+  scene.table_W = {{-0.5, 0.2}, {0.5, 0.2}, {0, 1}};
+  for (int id : {4, 5}) {
+    SceneObject object;
+    object.id = id;
+    object.category = "Carton";
+    object.confidence = 0.8f;
+    object.ask_user = id == 5;
+    object.probabilities = {{"Carton", 0.75f}, {"Box", 0.25f}};
+    object.centroid_W = {0.1, 0.5, 0.1};
+    object.extent_W = {0.06, 0.07, 0.2};
+    object.n_points = 1234;
+    object.points_C = {{0.1f, 0.2f, 0.9f}, {0.11f, 0.2f, 0.9f}, {0.1f, 0.1f, 0.95f}};
+    object.outline_px = {{100, 100}, {120, 100}, {110, 160}};
+    scene.objects.push_back(object);
+  }
+  scene.segmentation_ms = 200;
+  scene.categorisation_ms = 50;
+  return scene;
+}
+
+Poses ExamplePoses() {
+  return {
+      .utime = 1, .seq = 2, .scene_seq = 3, .poses = {ExampleObjectPose(), ExampleObjectPose()}};
+}
+
+Interface ExampleInterface() {
+  Interface interface {
+    .utime = 1, .device = "console@test", .kind = InterfaceKind::kChoice, .max_options = 3
+  };
+  interface.false_yes = 0.05f;
+  interface.false_no = 0.1f;
+  interface.confusion = {{0.9f, 0.1f}, {0.2f, 0.8f}};
+  return interface;
+}
+
+Query ExampleQuery() {
+  Query query{.utime = 1, .id = 2, .session_id = "s", .user = "ann", .kind = QueryKind::kFull};
+  query.text = "Open the carton?";
+  query.any_action = false;
+  query.actions = {"Open"};
+  query.any_object = false;
+  query.objects = {{.object_id = 4, .category = "Carton", .instance = 1}};
+  query.options = {{.text = "Yes", .category = "", .action = "", .objects = {4}}, {.text = "No"}};
+  query.scene_seq = 2;
+  query.questions_asked = 1;
+  query.n_candidates = 12;
+  query.expected_questions = 2.5;
+  query.best_posterior = 0.4;
+  query.seal = ExampleSeal();
+  return query;
+}
+
+Answer ExampleAnswer() {
+  return {.utime = 1,
+          .query_id = 2,
+          .session_id = "s",
+          .device = "console@test",
+          .likelihoods = {1, 0},
+          .seal = ExampleSeal()};
+}
+
+Session ExampleSession() {
+  return {.utime = 1,
+          .session_id = "s",
+          .user = "ann.b-c_1",
+          .device = "console@test",
+          .kind = SessionKind::kBegun,
+          .questions = 2,
+          .text = "waiting for a scene",
+          .seal = ExampleSeal()};
+}
+
+Task ExampleTask() {
+  Task task{.utime = 1, .task_id = "s", .user = "ann", .action = "Open"};
+  task.object = {.object_id = 4, .category = "Carton", .instance = 1};
+  task.centroid_W = {0.1, 0.5, 0.1};
+  task.has_pose = true;
+  task.pose = ExampleObjectPose();
+  task.X_WC = ExamplePose();
+  task.posterior = 0.995;
+  task.questions = 3;
+  task.expires_utime = 30'000'001;
+  task.seal = ExampleSeal();
+  return task;
+}
+
+TaskStatus ExampleTaskStatus() {
+  return {.utime = 1,
+          .task_id = "s",
+          .state = TaskState::kDone,
+          .text = "opened",
+          .seal = ExampleSeal()};
+}
+
+History ExampleHistory() {
+  return {.utime = 1,
+          .machine = "kitchen",
+          .digests = {{.origin = "kitchen", .highest_seq = 12, .checksum = -5}},
+          .rows = {{.origin = "kitchen", .seq = 12, .kind = "session", .body = "{\"a\": 1}"}},
+          .seal = ExampleSeal()};
+}
+
+Status ExampleStatus() {
+  return {.utime = 1,
+          .service = "pose",
+          .host = "lab",
+          .pid = 5,
+          .started_utime = 1,
+          .build = "0.1.0",
+          .state = "5 objects",
+          .counters = {{"frames", 12}, {"dropped", 0}}};
+}
+
+}  // namespace beckon::msg

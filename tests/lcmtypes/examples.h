@@ -1,0 +1,29 @@
+// A fully populated, valid value of every message type.
+#pragma once
+
+#include <tuple>
+
+#include "lcmtypes/messages.h"
+
+namespace beckon::msg {
+
+Frame ExampleFrame();
+Scene ExampleScene();
+Poses ExamplePoses();
+Interface ExampleInterface();
+Query ExampleQuery();
+Answer ExampleAnswer();
+Session ExampleSession();
+Task ExampleTask();
+TaskStatus ExampleTaskStatus();
+History ExampleHistory();
+Status ExampleStatus();
+
+/// One of each, to write a property once for all types.
+inline auto AllExamples() {
+  return std::make_tuple(ExampleFrame(), ExampleScene(), ExamplePoses(), ExampleInterface(),
+                         ExampleQuery(), ExampleAnswer(), ExampleSession(), ExampleTask(),
+                         ExampleTaskStatus(), ExampleHistory(), ExampleStatus());
+}
+
+}  // namespace beckon::msg
