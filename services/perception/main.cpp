@@ -1,0 +1,88 @@
+// beckon-perception: sees the table and what stands on it, on the bus or in a file.
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "services/base/app.h"
+#include "services/perception/offline.h"
+#include "services/perception/service.h"
+
+namespace {
+
+using namespace beckon;
+using namespace beckon::perception;
+
+struct Options {
+  AppOptions app;
+  OfflineOptions offline;
+  std::string segmentation, model;
+  bool no_categories = false;
+  int threads = 0;  // 0: as configured
+};
+
+void AddOptions(CLI::App& app, Options& o) {
+  AddAppOptions(app, o.app);
+  auto* input = app.add_option("--input", o.offline.input,
+                               "Perceive this cloud (.pcd, .ply) and leave; no bus")
+                    ->type_name("FILE");
+  app.add_option("--segmentation", o.segmentation, "How to segment: reference");
+  app.add_flag("--no-categories", o.no_categories, "Do not say of which category objects are");
+  app.add_option("--model", o.model, "Categories, as beckon-train wrote them")->type_name("FILE");
+  app.add_option("--threads", o.threads, "Objects categorised at a time (default 1)")
+      ->check(CLI::Range(1, 64));
+  app.add_option("--json", o.offline.json_file, "The result (default: standard output)")
+      ->type_name("FILE")
+      ->needs(input);
+  app.add_option("--labels", o.offline.labels_file, "16-bit PNG of the objects' pixels")
+      ->type_name("FILE")
+      ->needs(input);
+  app.add_option("--picture", o.offline.picture_file, "The image with named objects")
+      ->type_name("FILE")
+      ->needs(input);
+  app.add_option("--repeat", o.offline.repeat, "Compute this often, tell the median times")
+      ->check(CLI::Range(1, 100000))
+      ->needs(input);
+}
+
+Result<PerceptionConfig> Configure(const Options& o) {
+  auto table = LoadConfig(o.app);
+  if (!table) return table.error();
+  auto config = ReadPerceptionConfig(*table);
+  if (!config) return config.error();
+  if (!o.segmentation.empty()) {
+    auto method = ParseSegmentationMethod(o.segmentation);
+    if (!method) return Error{"--" + method.error().message};
+    config->perceiver.segmentation.method = *method;
+  }
+  if (o.no_categories) config->categories = false;
+  if (!o.model.empty()) config->model = o.model;
+  if (o.threads > 0) config->perceiver.threads = o.threads;
+  return config;
+}
+
+Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
+  auto categoriser = LoadCategoriser(config);
+  if (!categoriser) return categoriser.error();
+  RunLoop loop(true);  // before threads start: it blocks signals for all of them
+  auto bus = Bus::Open(lcm_url);
+  if (!bus) return bus.error();
+  Service service(**bus, loop, config.perceiver, *std::move(categoriser));
+  loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
+  loop.Run();
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Sees the table and the objects on it", "beckon-perception");
+  Options options;
+  AddOptions(app, options);
+  return RunApp(app, argc, argv, options.app, [&]() -> Status {
+    auto config = Configure(options);
+    if (!config) return config.error();
+    cv::setNumThreads(config->perceiver.threads);
+    if (options.app.check_config) return {};
+    if (!options.offline.input.empty()) return PerceiveFile(options.offline, *config);
+    return Serve(*config, options.app.lcm_url);
+  });
+}

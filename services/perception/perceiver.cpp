@@ -1,0 +1,106 @@
+// The steps of perceiving one image.
+#include "services/perception/perceiver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "services/base/config.h"
+#include "services/base/utime.h"
+
+namespace beckon::perception {
+
+void ReadConfig(ConfigTable& root, PerceiverConfig& config) {
+  ReadConfig(root, config.segmentation);
+  ConfigTable tracker = root.Section("tracker");
+  tracker.Get("max_step_m", config.tracker.max_step_m, 0.001, 1);
+  tracker.Get("min_overlap", config.tracker.min_overlap, 0.01, 1);
+  tracker.Get("forget_after_frames", config.tracker.forget_after_frames, 1, 1'000'000);
+  tracker.Get("recategorise_step_m", config.recategorise_step_m, 0, 1);
+  tracker.Get("recategorise_growth", config.recategorise_growth, 0, 10);
+  root.Get("threads", config.threads, 1, 64);
+}
+
+Perception Perceiver::Perceive(const RgbdImage& image) {
+  Perception perception;
+  const Stopwatch whole;
+  double told_ms = 0;
+  perception.segmentation = Segment(image, config_.segmentation, [&](const char* step) {
+    const double now_ms = whole.Milliseconds();
+    perception.steps_ms.emplace_back(step, now_ms - told_ms);
+    told_ms = now_ms;
+  });
+  if (perception.segmentation.table_C) {
+    perception.X_WC = WorldFromTable(*perception.segmentation.table_C);
+  }
+  auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC);
+  const auto ids = tracker_.Update(shapes);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    PerceivedObject object;
+    object.id = ids[i];
+    object.shape = std::move(shapes[i]);
+    perception.objects.push_back(std::move(object));
+  }
+  perception.segmentation_ms = whole.Milliseconds();
+  perception.steps_ms.emplace_back("objects", perception.segmentation_ms - told_ms);
+
+  const Stopwatch categorisation;
+  if (categoriser_ != nullptr) Categorise(image, perception);
+  perception.categorisation_ms = categorisation.Milliseconds();
+  return perception;
+}
+
+bool Perceiver::SameView(const ExtractedObject& shape, const Remembered& remembered) const {
+  const double before = static_cast<double>(remembered.n_points);
+  const double now = static_cast<double>(shape.pixels.size());
+  return (shape.centroid_C - remembered.centroid_C).norm() <= config_.recategorise_step_m &&
+         std::abs(now - before) <= config_.recategorise_growth * before;
+}
+
+void Perceiver::Categorise(const RgbdImage& image, Perception& perception) {
+  std::vector<PerceivedObject*> unseen;
+  for (auto& object : perception.objects) {
+    const auto known = remembered_.find(object.id);
+    if (known != remembered_.end() && SameView(object.shape, known->second)) {
+      object.category = known->second.category;
+    } else {
+      unseen.push_back(&object);
+    }
+  }
+
+  std::atomic<size_t> next = 0;
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+  auto work = [&] {
+    try {
+      for (size_t i; (i = next++) < unseen.size();) {
+        unseen[i]->category = categoriser_->Categorise(
+            {image, unseen[i]->shape.pixels, perception.segmentation.table_C});
+      }
+    } catch (...) {  // must not leave a thread
+      std::lock_guard lock(failure_mutex);
+      failure = std::current_exception();
+    }
+  };
+  const size_t n_threads = std::min<size_t>(config_.threads, unseen.size());
+  std::vector<std::jthread> others;
+  for (size_t i = 1; i < n_threads; ++i) others.emplace_back(work);
+  work();
+  others.clear();  // joins
+  if (failure) std::rethrow_exception(failure);
+
+  for (PerceivedObject* object : unseen) {
+    remembered_[object->id] = {object->shape.centroid_C, object->shape.pixels.size(),
+                               object->category};
+  }
+  for (auto& object : perception.objects) {
+    object.categorised = !object.category.probabilities.empty();
+  }
+  std::erase_if(remembered_,
+                [this](const auto& entry) { return !tracker_.Remembers(entry.first); });
+}
+
+}  // namespace beckon::perception

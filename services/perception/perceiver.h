@@ -1,0 +1,69 @@
+// From an image to the objects on the table: segmentation, measurement, identity, category.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/perception/categoriser.h"
+#include "services/perception/object_extraction.h"
+#include "services/perception/segmentation.h"
+#include "services/perception/tracker.h"
+
+namespace beckon::perception {
+
+struct PerceiverConfig {
+  SegmentationConfig segmentation;
+  TrackerConfig tracker;
+  double recategorise_step_m = 0.01;  // an object that moved more is looked at anew,
+  double recategorise_growth = 0.2;  // so is one whose points grew or shrank by more than this part
+  int threads = 1;                   // objects are categorised by so many at a time
+};
+
+/// Reads [segmentation], [tracker] and `threads` out of `root`.
+void ReadConfig(ConfigTable& root, PerceiverConfig& config);
+
+struct PerceivedObject {
+  int id = 0;  // >= 1
+  ExtractedObject shape;
+  bool categorised = false;  // false: there is no categoriser, or too little was seen
+  Categorisation category;
+};
+
+struct Perception {
+  Segmentation segmentation;
+  Pose X_WC = Pose::Identity();  // the camera in the table's frame W
+  std::vector<PerceivedObject> objects;
+  double segmentation_ms = 0;  // with measuring and tracking the objects
+  double categorisation_ms = 0;
+  std::vector<std::pair<std::string, double>> steps_ms;  // of segmentation
+};
+
+/// Holds what is known of the objects from frame to frame.
+class Perceiver {
+ public:
+  /// `categoriser` may be null (objects stay uncategorised); it must outlive this.
+  Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
+      : config_(config), categoriser_(categoriser), tracker_(config.tracker) {}
+
+  Perception Perceive(const RgbdImage& image);
+
+ private:
+  /// A category, and the view it was told from.
+  struct Remembered {
+    Eigen::Vector3d centroid_C;
+    size_t n_points = 0;
+    Categorisation category;
+  };
+
+  void Categorise(const RgbdImage& image, Perception& perception);
+  bool SameView(const ExtractedObject& shape, const Remembered& remembered) const;
+
+  PerceiverConfig config_;
+  const Categoriser* categoriser_;
+  Tracker tracker_;
+  std::map<int, Remembered> remembered_;
+};
+
+}  // namespace beckon::perception

@@ -1,0 +1,25 @@
+// The configuration of beckon-perception: what may stand in its TOML file.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/base/config.h"
+#include "services/perception/perceiver.h"
+
+namespace beckon::perception {
+
+struct PerceptionConfig {
+  PerceiverConfig perceiver;
+  bool categories = true;       // false: objects stay uncategorised
+  std::string model;            // file of beckon-train; empty: the one that ships
+  double ask_at_or_below = -1;  // confidence 0..1; negative: as the model has it
+};
+
+/// Reads the whole file; fails on what is wrong or unknown in it.
+Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root);
+
+/// The configured categoriser; nothing where categories are off.
+Result<std::optional<Categoriser>> LoadCategoriser(const PerceptionConfig& config);
+
+}  // namespace beckon::perception

@@ -1,0 +1,111 @@
+// Pictures by OpenCV.
+#include "services/perception/picture.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace beckon::perception {
+namespace {
+
+const cv::Scalar kTableColour(255, 255, 255);
+
+/// Colours that stay apart for neighbouring ids (multiples of the golden angle around the hue
+/// circle).
+cv::Scalar ColourOf(int id) {
+  cv::Mat hsv(1, 1, CV_8UC3, cv::Scalar((id * 68) % 180, 200, 255)), bgr;
+  cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
+  const auto& c = bgr.at<cv::Vec3b>(0, 0);
+  return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+}
+
+cv::Mat Background(const RgbdImage& image) {
+  cv::Mat canvas(image.height, image.width, CV_8UC3);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const size_t i = image.Index(u, v);
+      auto& pixel = canvas.at<cv::Vec3b>(v, u);
+      if (!image.colour.empty()) {
+        const Rgb& c = image.colour[i];
+        pixel = {c[2], c[1], c[0]};
+      } else {
+        const auto grey = cv::saturate_cast<uint8_t>(255 - 80 * image.depth_m[i]);
+        pixel = image.depth_m[i] > 0 ? cv::Vec3b(grey, grey, grey) : cv::Vec3b(0, 0, 0);
+      }
+    }
+  }
+  return canvas;
+}
+
+std::string Caption(const PerceivedObject& object) {
+  if (!object.categorised) return std::to_string(object.id);
+  char text[128];
+  const auto& [name, probability] = object.category.probabilities.front();
+  std::snprintf(text, sizeof text, "%d %s %.2f%s", object.id, name.c_str(),
+                object.category.confidence, object.category.ask_user ? "?" : "");
+  return text;
+}
+
+void DrawTable(const RgbdImage& image, const std::vector<Eigen::Vector3d>& hull_C,
+               cv::Mat& canvas) {
+  std::vector<cv::Point> polygon;
+  for (const auto& p_C : hull_C) {
+    if (p_C.z() < 0.05) return;  // behind the camera
+    const Eigen::Vector2d uv = image.intrinsics.Project(p_C);
+    polygon.emplace_back(cvRound(uv.x()), cvRound(uv.y()));
+  }
+  if (!polygon.empty()) cv::polylines(canvas, polygon, true, kTableColour, 1, cv::LINE_AA);
+}
+
+void DrawObject(const PerceivedObject& object, cv::Mat& canvas) {
+  std::vector<cv::Point> polygon;
+  for (const auto& [u, v] : object.shape.outline_px) polygon.emplace_back(u, v);
+  if (polygon.empty()) return;
+  const cv::Scalar colour = ColourOf(object.id);
+  cv::polylines(canvas, polygon, true, colour, 2, cv::LINE_AA);
+
+  const std::string caption = Caption(object);
+  const cv::Rect box = cv::boundingRect(polygon);
+  int below = 0;
+  const cv::Size size = cv::getTextSize(caption, cv::FONT_HERSHEY_SIMPLEX, 0.42, 1, &below);
+  const int x = std::clamp(box.x + (box.width - size.width) / 2, 0,
+                           std::max(0, canvas.cols - size.width - 4));
+  const int y = std::clamp(box.y - 5, size.height + 2, std::max(size.height + 2, canvas.rows - 4));
+  cv::rectangle(canvas, {x - 2, y - size.height - 3}, {x + size.width + 2, y + below}, {0, 0, 0},
+                cv::FILLED);
+  cv::putText(canvas, caption, {x, y - 1}, cv::FONT_HERSHEY_SIMPLEX, 0.42, colour, 1, cv::LINE_AA);
+}
+
+Status Write(const std::string& path, const cv::Mat& picture) {
+  const std::string message =
+      path + ": cannot write the picture; is the folder there, and does the name end in .png?";
+  try {
+    if (!cv::imwrite(path, picture)) return Error{message};
+  } catch (const cv::Exception&) {
+    return Error{message};
+  }
+  return {};
+}
+
+}  // namespace
+
+Status WritePicture(const std::string& path, const RgbdImage& image, const Perception& perception) {
+  cv::Mat canvas = Background(image);
+  DrawTable(image, perception.segmentation.hull_C, canvas);
+  for (const auto& object : perception.objects) DrawObject(object, canvas);
+  return Write(path, canvas);
+}
+
+Status WriteLabels(const std::string& path, const RgbdImage& image, const Perception& perception) {
+  cv::Mat labels = cv::Mat::zeros(image.height, image.width, CV_16U);
+  for (const auto& object : perception.objects) {
+    for (uint32_t pixel : object.shape.pixels) {
+      labels.at<uint16_t>(static_cast<int>(pixel) / image.width,
+                          static_cast<int>(pixel) % image.width) = static_cast<uint16_t>(object.id);
+    }
+  }
+  return Write(path, labels);
+}
+
+}  // namespace beckon::perception

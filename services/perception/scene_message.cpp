@@ -1,0 +1,89 @@
+// Fills a SCENE, within one datagram.
+#include "services/perception/scene_message.h"
+
+#include <algorithm>
+
+namespace beckon::perception {
+namespace {
+
+constexpr size_t kMaxHull = 64;           // vertices of the table
+constexpr size_t kMaxProbabilities = 12;  // categories told of one object
+constexpr size_t kBytesOfPoint = 6;
+constexpr size_t kMargin = 1500;  // source, table's pose, times and lengths
+
+/// Every so many-th vertex of a hull that has too many.
+std::vector<Eigen::Vector2d> TableOutline(const Perception& perception) {
+  const auto& hull_C = perception.segmentation.hull_C;
+  const size_t n = std::min(hull_C.size(), kMaxHull);
+  std::vector<Eigen::Vector2d> outline;
+  for (size_t i = 0; i < n; ++i) {
+    outline.push_back((perception.X_WC * hull_C[i * hull_C.size() / n]).head<2>());
+  }
+  return outline;
+}
+
+/// The likeliest, made to sum to 1 again where some were left out.
+std::vector<msg::CategoryProbability> Probabilities(const Categorisation& category) {
+  std::vector<msg::CategoryProbability> told;
+  float sum = 0;
+  for (const auto& [name, probability] : category.probabilities) {
+    if (told.size() == kMaxProbabilities) break;
+    told.push_back({name, probability});
+    sum += probability;
+  }
+  if (told.size() < category.probabilities.size() && sum > 0) {
+    for (auto& p : told) p.probability /= sum;
+  }
+  return told;
+}
+
+size_t BytesWithoutPoints(const msg::SceneObject& object) {
+  size_t bytes = 128 + object.category.size() + object.outline_px.size() * 4;
+  for (const auto& p : object.probabilities) bytes += 9 + p.category.size();
+  return bytes;
+}
+
+msg::SceneObject MakeObject(const PerceivedObject& perceived) {
+  msg::SceneObject object;
+  object.id = perceived.id;
+  object.confidence = perceived.category.confidence;
+  object.ask_user = perceived.category.ask_user;
+  object.probabilities = Probabilities(perceived.category);
+  if (!object.probabilities.empty()) object.category = object.probabilities.front().category;
+  object.centroid_W = perceived.shape.centroid_W;
+  object.extent_W = perceived.shape.extent_W;
+  object.n_points = static_cast<int>(perceived.shape.pixels.size());
+  object.outline_px = perceived.shape.outline_px;
+  return object;
+}
+
+}  // namespace
+
+msg::Scene MakeScene(const RgbdImage& image, const Perception& perception) {
+  msg::Scene scene;
+  scene.width = image.width;
+  scene.height = image.height;
+  scene.segmentation_ms = static_cast<float>(perception.segmentation_ms);
+  scene.categorisation_ms = static_cast<float>(perception.categorisation_ms);
+  scene.has_table = perception.segmentation.table_C.has_value();
+  if (!scene.has_table) return scene;
+  scene.X_WC = perception.X_WC;
+  scene.table_W = TableOutline(perception);
+
+  size_t bytes = kMargin + 16 * scene.table_W.size();
+  const size_t n_objects =
+      std::min<size_t>(perception.objects.size(), static_cast<size_t>(msg::kMaxObjects));
+  for (size_t i = 0; i < n_objects; ++i) {
+    scene.objects.push_back(MakeObject(perception.objects[i]));
+    bytes += BytesWithoutPoints(scene.objects.back());
+  }
+  const size_t room = msg::kMaxDatagram > bytes ? msg::kMaxDatagram - bytes : 0;
+  const size_t share = n_objects == 0 ? 0 : room / n_objects / kBytesOfPoint;
+  const int n_samples = static_cast<int>(std::min<size_t>(share, kMaxSamples));
+  for (size_t i = 0; i < n_objects; ++i) {
+    scene.objects[i].points_C = SampleSurface(image, perception.objects[i].shape.pixels, n_samples);
+  }
+  return scene;
+}
+
+}  // namespace beckon::perception

@@ -1,0 +1,75 @@
+// What segmentation is given and gives: the table's plane and outline, and a label per pixel.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/base/geometry.h"
+#include "services/base/rgbd.h"
+
+namespace beckon {
+class ConfigTable;
+}
+
+namespace beckon::perception {
+
+enum class SegmentationMethod { kReference };
+
+/// "reference".
+const char* Name(SegmentationMethod method);
+/// The method of a name; fails for one that does not exist.
+Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
+
+/// Section [segmentation] of the configuration. Defaults after the dissertation's chapter 3, but
+/// for min_height_m (there 0.02): 0.01 keeps flat objects and scored better on real scenes.
+struct SegmentationConfig {
+  SegmentationMethod method = SegmentationMethod::kReference;
+  double min_range_m = 0.5;  // depth that is used, along the optical axis
+  double max_range_m = 3.0;
+  double voxel_m = 0.002;          // edge length of the voxels
+  bool use_normals = false;        // a plane by points and normals: slower by a factor of 50
+  int normal_neighbours = 30;      // points a normal is estimated from
+  double normal_weight = 0.1;      // 0..1, of angles against distances, where normals are used
+  double plane_distance_m = 0.01;  // points this close to a plane lie on it
+  int plane_iterations = 1000;     // most hypotheses of RANSAC
+  int plane_min_points = 2000;     // voxels, fewer are no table
+  double table_max_tilt_deg = 80;  // between the table's normal and up in the image; more is a wall
+  double table_gap_m = 0.10;       // pieces of a table that are this close belong together
+  double min_height_m = 0.01;      // above the table, of what is an object
+  double max_height_m = 0.50;
+  double cluster_tolerance_m = 0.01;  // points this close belong to one object
+  int cluster_min_points = 150;       // voxels, fewer are no object
+  int max_objects = 64;               // the largest are kept
+};
+
+/// Reads [segmentation] out of `root`; errors are left for ConfigTable::Finish.
+void ReadConfig(ConfigTable& root, SegmentationConfig& config);
+
+/// One image segmented. Objects are numbered from 1, the one with most pixels first.
+struct Segmentation {
+  std::optional<Plane> table_C;  // normal towards the camera
+  std::string reason;            // why there is no table, in words; empty where there is one
+  std::vector<Eigen::Vector3d>
+      hull_C;  // the table's convex hull, on its plane, counter-clockwise from above
+  std::vector<uint16_t> labels;  // width * height; 0 = no object, k = object k
+  int n_objects = 0;
+
+  int n_points = 0;  // pixels in range
+  int n_voxels = 0;
+  int n_table_points = 0;  // voxels of the table
+  int n_prism_points = 0;  // voxels above the table
+  int n_left_out = 0;      // objects beyond max_objects
+};
+
+/// Told the name of each step when it is done, for whoever measures time.
+using StepObserver = std::function<void(const char* step)>;
+
+/// Segments by the configured method.
+Segmentation Segment(const RgbdImage& image, const SegmentationConfig& config,
+                     const StepObserver& done = {});
+
+}  // namespace beckon::perception

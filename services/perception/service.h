@@ -1,0 +1,70 @@
+// The running service: takes the newest FRAME, publishes its SCENE, reports how it fares.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lcmtypes/messages.h"
+#include "services/base/bus.h"
+#include "services/base/latest_worker.h"
+#include "services/base/run_loop.h"
+#include "services/base/status_reporter.h"
+#include "services/perception/perceiver.h"
+
+namespace beckon::perception {
+
+/// All of it runs in `loop`'s thread but the perceiving, which has a thread of its own that takes
+/// the newest frame and skips those it is too slow for. A frame whose image equals the last one's
+/// is not computed again: its scene is published with the new time.
+class Service {
+ public:
+  /// `bus` and `loop` must outlive this; `categoriser` is taken over.
+  Service(Bus& bus, RunLoop& loop, const PerceiverConfig& config,
+          std::optional<Categoriser> categoriser);
+  ~Service();
+  Service(const Service&) = delete;
+  Service& operator=(const Service&) = delete;
+
+  struct Counters {
+    int64_t frames = 0;           // received whole
+    int64_t dropped = 0;          // skipped for a newer one
+    int64_t damaged = 0;          // whose images could not be decoded
+    int64_t failed = 0;           // that could not be perceived: a fault of ours
+    int64_t computed = 0;         // perceived
+    int64_t repeated = 0;         // that equalled the one before
+    int64_t scenes = 0;           // published
+    int64_t objects = 0;          // in the last scene
+    int64_t segmentation_us = 0;  // of the last computed frame
+    int64_t categorisation_us = 0;
+  };
+  Counters counters() const;
+  /// One line for people.
+  const std::string& state() const { return state_; }
+
+ private:
+  /// What the worker made of a frame.
+  struct Outcome {
+    msg::Scene scene;
+    std::string state;
+    bool repeated = false;
+    std::string damage;   // why the frame was refused; empty where it was not
+    std::string failure;  // why perceiving it failed
+  };
+  class FrameWorker;
+
+  void Publish(Outcome outcome);
+
+  Bus& bus_;
+  RunLoop& loop_;
+  Counters counters_;
+  int64_t seq_ = 0;
+  std::string state_ = "no frame yet";
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // for what is posted and comes late
+  std::unique_ptr<FrameWorker> work_;
+  std::unique_ptr<LatestWorker<msg::Frame>> worker_;
+  StatusReporter status_;
+};
+
+}  // namespace beckon::perception
