@@ -1,0 +1,158 @@
+// Fitting a superquadric: checks of the input, the method, and what its result is worth.
+#include "services/pose/fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "services/pose/fit_stage.h"
+
+namespace beckon::pose {
+namespace {
+
+constexpr size_t kFewestPoints = 20;
+constexpr double kThinnest_m = 0.0005;  // spread below which points lie on a plane or a line
+
+constexpr std::array<std::pair<Method, const char*>, 2> kMethods{
+    {{Method::kAdaptive, "adaptive"}, {Method::kMultiscale, "multiscale"}}};
+
+template <typename... Args>
+std::string Text(const char* format, Args... args) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, args...);
+  return buffer;
+}
+
+PointList FinitePoints(std::span<const Eigen::Vector3f> points) {
+  PointList finite;
+  finite.reserve(points.size());
+  for (const auto& p : points) {
+    if (p.allFinite() && p.cwiseAbs().maxCoeff() < 1e9f) finite.push_back(p.cast<double>());
+  }
+  return finite;
+}
+
+// Why points cannot be fitted; empty where they can.
+std::string Unfit(const PrincipalBox& box, const FitConfig& config) {
+  const double extent = 2 * box.half_extents.maxCoeff();
+  if (extent > config.max_extent_m) {
+    return Text(
+        "the points span %.4g m, more than %.4g m: are they in millimetres, or of several objects?",
+        extent, config.max_extent_m);
+  }
+  if (extent < config.min_extent_m) {
+    return Text("the points span %.4g m, less than %.4g m", extent, config.min_extent_m);
+  }
+  if (box.spread[1] < kThinnest_m) return "the points lie on a line";
+  if (box.spread[2] < kThinnest_m) return "the points lie on a plane";
+  return "";
+}
+
+// What is told of an object that cannot be fitted: its box as an ellipsoid.
+Superquadric BoxOf(const PrincipalBox& box) {
+  Superquadric shape;
+  shape.semi_axes = box.half_extents.cwiseMax(0.001).cwiseMin(50);  // within what messages carry
+  shape.X_FO.linear() = box.axes;
+  shape.X_FO.translation() = box.middle;
+  return shape;
+}
+
+// Covariance of position and rotation: the block of the inverse Gauss-Newton Hessian of distances
+// over all eleven parameters, times the mean squared distance. Directions without information get
+// the variance of total ignorance through a weak prior.
+Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const PointList& points) {
+  constexpr int kUsed = kTaper;  // all but taper
+  NormalEquations eq;
+  double squares = 0;
+  for (const auto& p : points) {
+    const SurfaceDistance d = DistanceToSurface(shape, p);
+    eq.Add(d.distance_m, d.jacobian);
+    squares += d.distance_m * d.distance_m;
+  }
+  const double dof = std::max<double>(static_cast<double>(points.size()) - kUsed, 1);
+  const double variance = std::max(squares / dof, 1e-12);
+  Eigen::Matrix<double, kUsed, 1> prior;  // standard deviations of total ignorance
+  prior << 1, 1, 1, 0.5, 0.5, Eigen::Vector3d::Constant(std::numbers::pi / std::sqrt(3.0)),
+      Eigen::Vector3d::Constant(shape.semi_axes.maxCoeff());
+  Eigen::Matrix<double, kUsed, kUsed> information =
+      ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()).topLeftCorner<kUsed, kUsed>() /
+      variance;
+  information.diagonal() += prior.array().square().inverse().matrix();
+  const Eigen::Matrix<double, kUsed, kUsed> covariance =
+      information.ldlt().solve(Eigen::Matrix<double, kUsed, kUsed>::Identity());
+  // Position first, then rotation.
+  Eigen::Matrix<double, 6, 6> pose;
+  pose.topLeftCorner<3, 3>() = covariance.block<3, 3>(kTranslation, kTranslation);
+  pose.topRightCorner<3, 3>() = covariance.block<3, 3>(kTranslation, kRotation);
+  pose.bottomLeftCorner<3, 3>() = covariance.block<3, 3>(kRotation, kTranslation);
+  pose.bottomRightCorner<3, 3>() = covariance.block<3, 3>(kRotation, kRotation);
+  return 0.5 * (pose + pose.transpose());
+}
+
+bool IsFinite(const Superquadric& s) {
+  return s.semi_axes.allFinite() && s.semi_axes.minCoeff() > 0 && s.epsilon.allFinite() &&
+         s.taper.allFinite() && s.X_FO.matrix().allFinite();
+}
+
+}  // namespace
+
+Result<Method> ParseMethod(const std::string& name) {
+  std::string names;
+  for (const auto& [method, known] : kMethods) {
+    if (name == known) return method;
+    names += (names.empty() ? "" : ", ") + std::string(known);
+  }
+  return Error{"there is no fitting method '" + name + "'; this build has: " + names};
+}
+
+const char* Name(Method method) {
+  for (const auto& [known, name] : kMethods) {
+    if (method == known) return name;
+  }
+  return "";
+}
+
+FitResult Fit(const FitInput& input, const FitConfig& config) {
+  FitResult result;
+  const PointList points = FinitePoints(input.points_F);
+  result.points_used = static_cast<int>(points.size());
+  result.shape.semi_axes.setConstant(0.001);
+  if (points.empty()) {
+    result.reason = "no finite points";
+    return result;
+  }
+  const PrincipalBox box = ComputePrincipalBox(points);
+  result.shape = BoxOf(box);
+  result.reason = points.size() < kFewestPoints
+                      ? Text("%zu finite points, fewer than %zu", points.size(), kFewestPoints)
+                      : Unfit(box, config);
+  if (!result.reason.empty()) return result;
+
+  const MethodOutcome outcome =
+      config.method == Method::kAdaptive
+          ? FitAdaptive(points, input.table_F, input.viewpoint_F, config.adaptive)
+          : FitMultiscale(points, config.multiscale);
+  result.iterations = outcome.iterations;
+  if (!IsFinite(outcome.shape)) {
+    result.reason = "the fit did not stay finite";
+    return result;
+  }
+  result.shape = outcome.shape;
+  result.ambiguous = outcome.ambiguous;
+  result.mean_radial_distance_m = MeanRadialDistance(result.shape, points);
+  result.covariance = PoseCovariance(result.shape, points);
+  if (!outcome.converged) {
+    result.reason = "the fit was still improving when its iterations ran out";
+  } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {
+    result.reason =
+        Text("the points lie %.1f mm from the fitted surface on average, more than %.1f mm",
+             1e3 * result.mean_radial_distance_m, 1e3 * config.max_radial_distance_m);
+  }
+  result.converged = result.reason.empty();
+  return result;
+}
+
+}  // namespace beckon::pose

@@ -1,0 +1,191 @@
+// The default fit: several starts, a robust distance to the surface, and what a table-top scene
+// knows.
+#include "services/pose/fit_adaptive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/pose/outline.h"
+#include "services/pose/starts.h"
+#include "services/pose/surface.h"
+
+namespace beckon::pose {
+namespace {
+
+// s^2 log(1 + (r/s)^2) and its weight (Cauchy; Zhang 1997, table 1).
+struct Robust {
+  double cost, weight;
+};
+Robust Cauchy(double residual, double scale) {
+  const double x = residual * residual / (scale * scale);
+  return {scale * scale * std::log1p(x), 1 / (1 + x)};
+}
+
+// What does not change between the stages of one fit.
+struct Scene {
+  std::optional<Plane> table;
+  Eigen::Vector3d viewpoint;
+  std::vector<TangentPlane> outline;
+};
+
+class AdaptiveProblem : public FitProblem {
+ public:
+  /// `upright` is the axis of the shape that is to be vertical.
+  AdaptiveProblem(const PointList& points, const Scene& scene, int upright,
+                  const AdaptiveConfig& config)
+      : points_(points), scene_(scene), upright_(upright), config_(config) {}
+
+  NormalEquations Linearise(const Superquadric& shape) const override {
+    NormalEquations eq;
+    AddPoints(shape, eq);
+    if (scene_.table) {
+      AddSupport(shape, eq);
+      AddTilt(shape, eq);
+    }
+    AddOutline(shape, eq);
+    eq.cost += config_.volume_prior_m2 * shape.semi_axes.array().log().sum();
+    eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
+    return eq;
+  }
+
+ private:
+  void AddPoints(const Superquadric& shape, NormalEquations& eq) const {
+    const double share = 1.0 / static_cast<double>(points_.size());
+    for (const auto& p : points_) {
+      const SurfaceDistance d = DistanceToSurface(shape, p);
+      const Robust robust = Cauchy(d.distance_m, config_.noise_m);
+      eq.Add(d.distance_m, d.jacobian, share * robust.weight);
+      eq.cost += share * robust.cost;
+    }
+  }
+
+  // max of n·p over the shape, with its derivatives by the parameters.
+  static double Reach(const Superquadric& shape, const Eigen::Vector3d& n_F,
+                      ParameterVector& jacobian) {
+    const Eigen::Matrix3d& R = shape.X_FO.linear();
+    const SupportDerivatives d = DifferentiateSupport(shape, R.transpose() * n_F);
+    jacobian.setZero();
+    jacobian.segment<3>(kLogAxes) = d.log_semi_axes;
+    jacobian.segment<2>(kEpsilon) = d.epsilon;
+    jacobian.segment<3>(kRotation) = (R * d.point).cross(n_F);
+    jacobian.segment<3>(kTranslation) = n_F;
+    return n_F.dot(shape.X_FO.translation()) + d.h;
+  }
+
+  // The lowest point lies on the table: max over the shape of -n·p equals the plane's offset.
+  void AddSupport(const Superquadric& shape, NormalEquations& eq) const {
+    ParameterVector jacobian;
+    const double below = Reach(shape, -scene_.table->normal, jacobian) - scene_.table->offset_m;
+    eq.Add(below, jacobian, config_.support_weight);
+    eq.cost += config_.support_weight * below * below;
+  }
+
+  // The upright axis has no horizontal components.
+  void AddTilt(const Superquadric& shape, NormalEquations& eq) const {
+    const Eigen::Vector3d axis = shape.X_FO.linear().col(upright_);
+    const Eigen::Vector3d right = scene_.table->normal.unitOrthogonal();
+    for (const Eigen::Vector3d& h : {right, Eigen::Vector3d(scene_.table->normal.cross(right))}) {
+      ParameterVector jacobian = ParameterVector::Zero();
+      jacobian.segment<3>(kRotation) = axis.cross(h);
+      const double lean = h.dot(axis);
+      eq.Add(lean, jacobian, config_.tilt_weight);
+      eq.cost += config_.tilt_weight * lean * lean;
+    }
+  }
+
+  // The planes through the viewpoint that touch the visible outline touch the shape.
+  void AddOutline(const Superquadric& shape, NormalEquations& eq) const {
+    if (scene_.outline.empty()) return;
+    const double share = config_.outline_weight / static_cast<double>(scene_.outline.size());
+    ParameterVector jacobian;
+    for (const TangentPlane& plane : scene_.outline) {
+      const double beyond =
+          Reach(shape, plane.normal_F, jacobian) - plane.normal_F.dot(scene_.viewpoint);
+      const Robust robust = Cauchy(beyond, config_.outline_noise_m);
+      eq.Add(beyond, jacobian, share * robust.weight);
+      eq.cost += share * robust.cost;
+    }
+  }
+
+  const PointList& points_;
+  const Scene& scene_;
+  const int upright_;
+  const AdaptiveConfig& config_;
+};
+
+// The axis of the shape nearest to the table's normal; 2 where there is no table.
+int UprightAxis(const Superquadric& shape, const std::optional<Plane>& table) {
+  int axis = 2;
+  if (table) (shape.X_FO.linear().transpose() * table->normal).cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+// About `count` points: every so manieth.
+PointList Thinned(const PointList& points, int count) {
+  const size_t step = std::max<size_t>(points.size() / static_cast<size_t>(count), 1);
+  PointList thinned;
+  for (size_t i = 0; i < points.size(); i += step) thinned.push_back(points[i]);
+  return thinned;
+}
+
+// About `count` points evenly spread over the surface: the centroids of a voxel grid of fitting
+// size.
+PointList EvenlySpread(const PointList& points, int count, double size_m) {
+  if (points.size() <= static_cast<size_t>(count)) return points;
+  double voxel_m = size_m / std::sqrt(static_cast<double>(count));
+  PointList spread = VoxelCentroids(points, voxel_m);
+  for (int tries = 0; tries < 3; ++tries) {
+    const double ratio = static_cast<double>(spread.size()) / count;
+    if (ratio > 0.8 && ratio < 1.25) break;
+    voxel_m *= std::sqrt(ratio);  // points lie on a surface
+    spread = VoxelCentroids(points, voxel_m);
+  }
+  return spread;
+}
+
+}  // namespace
+
+MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
+                          const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
+  const std::vector<Superquadric> starts = Starts(points_F, table_F);
+  const double reach = starts[0].semi_axes.maxCoeff();
+  const PointList fine = EvenlySpread(points_F, config.fine_points, 2 * reach);
+  const PointList coarse = Thinned(fine, config.coarse_points);
+  const Scene scene{table_F, viewpoint_F,
+                    OutlinePlanes(points_F, viewpoint_F, table_F, config.outline_planes,
+                                  config.pixel_rad, config.table_margin_m)};
+  FitBounds bounds;
+  bounds.min_axes.setConstant(config.min_semi_axis_m);
+  bounds.max_axes.setConstant(std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
+  bounds.min_epsilon = config.min_epsilon;
+  bounds.max_epsilon = config.max_epsilon;
+
+  MethodOutcome outcome;
+  LmOptions options{config.coarse_iterations, 1e-3};
+  std::vector<LmResult> fits;
+  for (const Superquadric& start : starts) {
+    const AdaptiveProblem problem(coarse, scene, UprightAxis(start, table_F), config);
+    fits.push_back(Minimise(problem, start, bounds, options));
+    outcome.iterations.push_back(fits.back().iterations);
+  }
+  const auto cheaper = [](const LmResult& a, const LmResult& b) {
+    return a.at_minimum.cost < b.at_minimum.cost;
+  };
+  std::stable_sort(fits.begin(), fits.end(), cheaper);
+  fits.resize(2);
+  options = {config.fine_iterations, 1e-5};
+  for (LmResult& fit : fits) {
+    const AdaptiveProblem problem(fine, scene, UprightAxis(fit.shape, table_F), config);
+    fit = Minimise(problem, fit.shape, bounds, options);
+    outcome.iterations.push_back(fit.iterations);
+  }
+  std::stable_sort(fits.begin(), fits.end(), cheaper);
+  outcome.shape = fits[0].shape;
+  outcome.converged = fits[0].converged;
+  outcome.ambiguous = MeanRadialDistance(fits[1].shape, fine) <
+                          kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
+                      ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
+  return outcome;
+}
+
+}  // namespace beckon::pose

@@ -1,0 +1,75 @@
+// The pose service's configuration file.
+#include "services/pose/pose_config.h"
+
+#include <string>
+
+namespace beckon::pose {
+namespace {
+
+void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
+  table.Get("coarse_points", c.coarse_points, 20, 100000);
+  table.Get("fine_points", c.fine_points, 20, 100000);
+  table.Get("coarse_iterations", c.coarse_iterations, 1, 1000);
+  table.Get("fine_iterations", c.fine_iterations, 1, 1000);
+  table.Get("noise_m", c.noise_m, 1e-5, 0.1);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("axis_margin", c.axis_margin, 0, 10);
+  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
+  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
+  table.Get("volume_prior_m2", c.volume_prior_m2, 0, 1);
+  table.Get("support_weight", c.support_weight, 0, 1e6);
+  table.Get("tilt_weight", c.tilt_weight, 0, 1e6);
+  table.Get("outline_planes", c.outline_planes, 0, 1000);
+  table.Get("outline_weight", c.outline_weight, 0, 1e6);
+  table.Get("outline_noise_m", c.outline_noise_m, 1e-5, 0.1);
+  table.Get("pixel_rad", c.pixel_rad, 0, 0.1);
+  table.Get("table_margin_m", c.table_margin_m, 0, 1);
+}
+
+void ReadMultiscale(ConfigTable table, MultiscaleConfig& c) {
+  table.Get("voxels_m", c.voxels_m);
+  for (double voxel_m : c.voxels_m) {
+    if (!(voxel_m > 0)) table.Fail("voxels_m", "every voxel is longer than 0 m");
+  }
+  table.Get("max_iterations", c.max_iterations, 1, 1000);
+  table.Get("stop_change", c.stop_change, 0, 1);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
+  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
+  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
+  table.Get("max_taper", c.max_taper, 0, 0.9);
+}
+
+void ReadGripper(ConfigTable table, GripperConfig& c) {
+  table.Get("max_opening_m", c.max_opening_m, 0.001, 1);
+  table.Get("finger_depth_m", c.finger_depth_m, 0.001, 1);
+  table.Get("finger_half_width_m", c.finger_half_width_m, 0, 1);
+  table.Get("clearance_m", c.clearance_m, 0, 1);
+  table.Get("min_side_height_m", c.min_side_height_m, 0, 10);
+  table.Get("max_slip_rad", c.max_slip_rad, 0, 1.6);
+}
+
+}  // namespace
+
+Result<PoseConfig> ReadPoseConfig(ConfigTable table) {
+  PoseConfig config;
+  std::string method = Name(config.fit.method);
+  table.Get("method", method);
+  const Result<Method> parsed = ParseMethod(method);
+  if (parsed) {
+    config.fit.method = *parsed;
+  } else {
+    table.Fail("method", parsed.error().message);
+  }
+  ConfigTable limits = table.Section("limits");
+  limits.Get("max_extent_m", config.fit.max_extent_m, 0.01, 100);
+  limits.Get("min_extent_m", config.fit.min_extent_m, 0, 1);
+  limits.Get("max_radial_distance_m", config.fit.max_radial_distance_m, 0, 1);
+  ReadAdaptive(table.Section("adaptive"), config.fit.adaptive);
+  ReadMultiscale(table.Section("multiscale"), config.fit.multiscale);
+  ReadGripper(table.Section("gripper"), config.gripper);
+  if (Status finished = table.Finish(); !finished) return finished.error();
+  return config;
+}
+
+}  // namespace beckon::pose
