@@ -1,0 +1,238 @@
+#include "services/ui_bridge/dialogue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace beckon::ui_bridge {
+namespace {
+
+constexpr size_t kEndedKept = 32;
+
+bool IsEvent(msg::SessionKind kind) { return kind >= msg::SessionKind::kIdle; }
+
+}  // namespace
+
+Dialogue::Dialogue(DialogueConfig config, const Clock& clock, const Clock& steady,
+                   std::function<std::string()> new_session_id, DialogueOutput& output)
+    : config_(std::move(config)),
+      clock_(clock),
+      steady_(steady),
+      new_session_id_(std::move(new_session_id)),
+      output_(output),
+      listen_until_(steady.Now() + config_.listen_us),
+      heard_(steady.Now()) {}
+
+void Dialogue::Tick() {
+  const Utime now = steady_.Now();
+  if (wanted_ && phase_ == Phase::kIdle && now >= listen_until_) BeginRequesting();
+  for (auto* repeated : {&start_, &control_}) {
+    if (*repeated && now >= (*repeated)->due) {
+      (*repeated)->due = now + config_.repeat_us;
+      output_.Send((*repeated)->message);
+    }
+  }
+  if (answer_ && now >= answer_->due) {
+    answer_->due = now + config_.repeat_us;
+    output_.Send(answer_->message);
+  }
+  if (!silent_ && now - heard_ > config_.silence_us) {
+    silent_ = true;
+    output_.ShowNotice("Nothing is heard of the intention service; waiting for it.");
+  }
+}
+
+void Dialogue::OnQuery(const msg::Query& query) {
+  if (query.user != config_.user) return;
+  heard_ = steady_.Now();
+  silent_ = false;
+  if (phase_ == Phase::kStopped || cancelled_ || HasEnded(query.session_id)) return;
+  if (phase_ != Phase::kRunning || query.session_id != session_id_) Join(query.session_id);
+  if (!presented_.insert(query.id).second) return;
+  answer_.reset();
+  query_ = query;
+  output_.Present(query);
+}
+
+void Dialogue::OnSession(const msg::Session& event) {
+  if (!IsEvent(event.kind)) return;
+  heard_ = steady_.Now();
+  silent_ = false;
+  // Stopping is for everybody; IDLE names nobody or speaks to one user; the rest is one user's.
+  const bool ours = event.user == config_.user;
+  const bool everybody = event.kind == msg::SessionKind::kStopped ||
+                         (event.kind == msg::SessionKind::kIdle && event.user.empty());
+  if (!ours && !everybody) return;
+  switch (event.kind) {
+    case msg::SessionKind::kIdle:
+      return OnIdle(event);
+    case msg::SessionKind::kConfirmed:
+    case msg::SessionKind::kAbandoned:
+      return OnEnd(event);
+    case msg::SessionKind::kStopped:
+      if (control_ && control_->message.kind == msg::SessionKind::kRequestStop) control_.reset();
+      start_.reset();
+      wanted_ = false;
+      phase_ = Phase::kStopped;
+      DropQuery();
+      return ShowOnce(event);
+    default:
+      break;
+  }
+  // BEGUN
+  if (HasEnded(event.session_id)) return;
+  if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
+  if (phase_ != Phase::kRunning || event.session_id != session_id_) Join(event.session_id);
+  if (answer_ && query_ && event.questions > query_->questions_asked) answer_.reset();
+  ShowOnce(event);
+}
+
+void Dialogue::OnIdle(const msg::Session& event) {
+  if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
+  switch (phase_) {
+    case Phase::kRunning:
+      if (cancelled_) {
+        End();
+        break;
+      }
+      // Intention came back without our session: it was not committed. The same id makes the
+      // request safe where it was.
+      output_.ShowNotice("The conversation was interrupted; it starts over.");
+      DropQuery();
+      presented_.clear();
+      BeginRequesting();
+      return;
+    case Phase::kStopped:
+      End();
+      break;
+    case Phase::kRequesting:
+      if (!cancelled_) return;
+      End();
+      break;
+    case Phase::kIdle:
+      break;
+  }
+  ShowOnce(event);
+}
+
+void Dialogue::OnEnd(const msg::Session& event) {
+  const bool resumed = control_ && control_->message.kind == msg::SessionKind::kRequestResume;
+  if (phase_ == Phase::kIdle || (event.session_id != session_id_ && !resumed)) return;
+  if (resumed) control_.reset();
+  End();
+  ShowOnce(event);
+}
+
+void Dialogue::Start() {
+  wanted_ = true;
+  Tick();
+}
+
+void Dialogue::Answer(int64_t query_id, const std::vector<double>& likelihoods) {
+  if (phase_ != Phase::kRunning || !query_ || query_->id != query_id || cancelled_) return;
+  msg::Answer answer;
+  answer.utime = clock_.Now();
+  answer.query_id = query_id;
+  answer.session_id = session_id_;
+  answer.device = config_.device;
+  answer.likelihoods = likelihoods;
+  output_.Send(answer);
+  answer_ = {std::move(answer), steady_.Now() + config_.repeat_us};
+}
+
+// Undo and "none of these" are said once: intention takes each as a new wish, so a repetition that
+// crosses its answer would be a second one. Lost ones the user sees and says again.
+void Dialogue::Undo() {
+  if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestUndo));
+}
+
+void Dialogue::NoneOfThese() {
+  if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestNoneOfThese));
+}
+
+void Dialogue::Cancel() {
+  wanted_ = false;
+  if (phase_ == Phase::kIdle || phase_ == Phase::kStopped) return;
+  cancelled_ = true;
+  start_.reset();
+  DropQuery();
+  Insist(msg::SessionKind::kRequestCancel);
+}
+
+void Dialogue::Stop() { Insist(msg::SessionKind::kRequestStop); }
+
+void Dialogue::Resume() {
+  if (phase_ == Phase::kStopped) Insist(msg::SessionKind::kRequestResume);
+}
+
+void Dialogue::Insist(msg::SessionKind kind) {
+  const bool stopping = control_ && control_->message.kind == msg::SessionKind::kRequestStop;
+  if (stopping && kind == msg::SessionKind::kRequestCancel) return;  // stopping goes first
+  control_ = {Request(kind), steady_.Now() + config_.repeat_us};
+  output_.Send(control_->message);
+}
+
+void Dialogue::BeginRequesting() {
+  if (phase_ != Phase::kRunning || session_id_.empty()) session_id_ = new_session_id_();
+  phase_ = Phase::kRequesting;
+  presented_.clear();
+  start_ = {Request(msg::SessionKind::kRequestStart), steady_.Now() + config_.repeat_us};
+  output_.Send(start_->message);
+}
+
+void Dialogue::Join(const std::string& session_id) {
+  DropQuery();
+  presented_.clear();
+  start_.reset();
+  if (session_id != session_id_ && cancelled_) {
+    cancelled_ = false;
+    control_.reset();
+  }
+  session_id_ = session_id;
+  phase_ = Phase::kRunning;
+  wanted_ = false;
+}
+
+void Dialogue::End() {
+  DropQuery();
+  presented_.clear();
+  start_.reset();
+  if (control_ && control_->message.kind == msg::SessionKind::kRequestCancel) control_.reset();
+  cancelled_ = false;
+  wanted_ = false;
+  phase_ = Phase::kIdle;
+  if (session_id_.empty()) return;
+  ended_.push_back(std::exchange(session_id_, {}));
+  if (ended_.size() > kEndedKept) ended_.pop_front();
+}
+
+void Dialogue::DropQuery() {
+  answer_.reset();
+  if (!query_) return;
+  query_.reset();
+  output_.Withdraw();
+}
+
+void Dialogue::ShowOnce(const msg::Session& event) {
+  if (shown_ && shown_->kind == event.kind && shown_->session_id == event.session_id &&
+      shown_->text == event.text) {
+    return;
+  }
+  shown_ = event;
+  output_.ShowSession(event);
+}
+
+bool Dialogue::HasEnded(const std::string& session_id) const {
+  return std::ranges::find(ended_, session_id) != ended_.end();
+}
+
+msg::Session Dialogue::Request(msg::SessionKind kind) const {
+  msg::Session request;
+  request.utime = clock_.Now();
+  request.session_id = session_id_;
+  request.user = config_.user;
+  request.device = config_.device;
+  request.kind = kind;
+  return request;
+}
+
+}  // namespace beckon::ui_bridge

@@ -1,0 +1,114 @@
+// One front end's side of the conversation (docs/protocol.md, "Conversing"): when to ask for a
+// session, which question to present, what to repeat until it has arrived, and how to go on when
+// intention was away. Every front end uses this one; none has rules of its own.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lcmtypes/messages.h"
+#include "services/base/utime.h"
+
+namespace beckon::ui_bridge {
+
+struct DialogueConfig {
+  std::string user;                // whose wishes; 1 .. 64 of [A-Za-z0-9_.-]
+  std::string device;              // this front end
+  Utime listen_us = 1'500'000;     // before the first request: join what runs already
+  Utime repeat_us = 500'000;       // of what may have been lost
+  Utime silence_us = 4 * kSecond;  // without a word of intention: tell the user
+};
+
+/// What a dialogue wants done: `Send` goes to the bus, the rest to the user.
+class DialogueOutput {
+ public:
+  virtual ~DialogueOutput() = default;
+  virtual void Send(const msg::Answer& answer) = 0;
+  virtual void Send(const msg::Session& request) = 0;
+  /// Called once for each question.
+  virtual void Present(const msg::Query& query) = 0;
+  /// The question presented last no longer stands.
+  virtual void Withdraw() = 0;
+  /// Called when the event changes, not when it is repeated.
+  virtual void ShowSession(const msg::Session& event) = 0;
+  /// A line for the user.
+  virtual void ShowNotice(const std::string& text) = 0;
+};
+
+/// `clock` stamps messages; `steady` paces repetitions and never goes back. Both, and `output`,
+/// must outlive the dialogue. Not thread-safe.
+class Dialogue {
+ public:
+  enum class Phase { kIdle, kRequesting, kRunning, kStopped };
+
+  Dialogue(DialogueConfig config, const Clock& clock, const Clock& steady,
+           std::function<std::string()> new_session_id, DialogueOutput& output);
+
+  /// Call at least every 100 ms.
+  void Tick();
+  void OnQuery(const msg::Query& query);
+  /// Events of intention; requests of other front ends are left alone.
+  void OnSession(const msg::Session& event);
+
+  /// The user wants a session: begun as soon as listening is over, none runs and nothing is
+  /// stopped.
+  void Start();
+  /// Evidence for the options of the question presented; ignored where another or none stands.
+  void Answer(int64_t query_id, const std::vector<double>& likelihoods);
+  void Undo();
+  void NoneOfThese();
+  void Cancel();
+  void Stop();
+  void Resume();
+
+  Phase phase() const { return phase_; }
+  const std::string& session_id() const { return session_id_; }
+  /// The question that stands; null where none does.
+  const msg::Query* query() const { return query_ ? &*query_ : nullptr; }
+  bool answered() const { return answer_.has_value(); }
+
+ private:
+  template <typename T>
+  struct Repeated {
+    T message;
+    Utime due;
+  };
+
+  void BeginRequesting();
+  void Join(const std::string& session_id);
+  void End();
+  void DropQuery();
+  void ShowOnce(const msg::Session& event);
+  void OnIdle(const msg::Session& event);
+  void OnEnd(const msg::Session& event);
+  void Insist(msg::SessionKind kind);
+  bool HasEnded(const std::string& session_id) const;
+  msg::Session Request(msg::SessionKind kind) const;
+
+  const DialogueConfig config_;
+  const Clock& clock_;
+  const Clock& steady_;
+  const std::function<std::string()> new_session_id_;
+  DialogueOutput& output_;
+
+  Phase phase_ = Phase::kIdle;
+  bool wanted_ = false;     // the user wants a session
+  bool cancelled_ = false;  // the user no longer wants the one that runs
+  Utime listen_until_;
+  std::string session_id_;
+  std::optional<msg::Query> query_;
+  std::set<int64_t> presented_;  // ids of this session
+  std::optional<Repeated<msg::Answer>> answer_;
+  std::optional<Repeated<msg::Session>> start_;
+  std::optional<Repeated<msg::Session>> control_;  // cancel, stop or resume
+  std::deque<std::string> ended_;                  // the latest sessions that are over
+  std::optional<msg::Session> shown_;
+  Utime heard_;  // when intention last said anything
+  bool silent_ = false;
+};
+
+}  // namespace beckon::ui_bridge

@@ -1,0 +1,243 @@
+// Front end "console": questions as text, answers as typed lines, on a terminal or through pipes.
+#include <unistd.h>
+
+#include <cstdio>
+#include <deque>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "services/base/run_loop.h"
+#include "services/ui_bridge/console_text.h"
+#include "services/ui_bridge/front_end.h"
+
+namespace beckon::ui_bridge {
+namespace {
+
+constexpr size_t kMaxLine = 4096;
+constexpr Utime kFilePoll_us = 20'000;
+
+struct ConsoleConfig {
+  double seconds_per_question = 4;  // s, to read, decide and type
+  double seconds_per_option = 0.7;  // s, more for each option
+  double false_yes = 0;             // 0..0.5, chance of "yes" typed where "no" is meant
+  double false_no = 0;              // 0..0.5
+  int max_options = 12;             // shown at once
+};
+
+class ConsoleFrontEnd final : public FrontEnd {
+ public:
+  ConsoleFrontEnd(const ConsoleConfig& config, const FrontEndSetup& setup)
+      : config_(config),
+        setup_(setup),
+        terminal_in_(isatty(STDIN_FILENO) == 1),
+        terminal_out_(isatty(STDOUT_FILENO) == 1) {}
+  ~ConsoleFrontEnd() override { StopReading(); }
+
+  msg::Interface Announce() const override {
+    msg::Interface interface;
+    interface.kind = msg::InterfaceKind::kChoice;
+    interface.max_options = config_.max_options;
+    interface.seconds_per_question = static_cast<float>(config_.seconds_per_question);
+    interface.seconds_per_option = static_cast<float>(config_.seconds_per_option);
+    interface.false_yes = static_cast<float>(config_.false_yes);
+    interface.false_no = static_cast<float>(config_.false_no);
+    return interface;
+  }
+
+  void Begin() override {
+    try {
+      setup_.loop.AddFd(STDIN_FILENO, [this] { Read(); });
+      watching_ = true;
+    } catch (const std::system_error&) {  // a plain file cannot be waited for, but always be read
+      poll_ = setup_.loop.Every(kFilePoll_us, [this] { Read(); });
+    }
+    setup_.sink.Request(msg::SessionKind::kRequestStart);
+  }
+
+  void Present(const msg::Query& query) override {
+    query_ = query;
+    answered_ = false;
+    between_ = false;
+    Print(RenderQuestion(query, terminal_out_));
+    UseLines();
+  }
+
+  void Withdraw() override { query_.reset(); }
+
+  void ShowSession(const msg::Session& event) override {
+    if (const std::string text = RenderSession(event); !text.empty()) Print(text + "\n");
+    if (event.kind == msg::SessionKind::kBegun) in_session_ = true;
+    const bool over = event.kind == msg::SessionKind::kConfirmed ||
+                      event.kind == msg::SessionKind::kAbandoned ||
+                      event.kind == msg::SessionKind::kIdle;
+    if (over && std::exchange(in_session_, false)) AfterSession();
+  }
+
+  void ShowNotice(const std::string& text) override { Print(text + "\n"); }
+
+  void ShowTaskStatus(const msg::TaskStatus& status) override {
+    Print(RenderTaskStatus(status) + "\n");
+  }
+
+  std::string State() const override {
+    if (query_) return answered_ ? "answered question " + Number() : "asks question " + Number();
+    return in_session_ ? "waits for a question" : "waits for a conversation";
+  }
+
+ private:
+  std::string Number() const { return std::to_string(query_->questions_asked + 1); }
+
+  void AfterSession() {
+    if (++sessions_ == setup_.exit_after_sessions) return End();
+    between_ = true;
+    if (terminal_in_) return Print("\nEnter = another task, q = quit\n> ");
+    UseLines();
+    // A pipe has nobody to press Enter: whatever comes next belongs to the next conversation.
+    if (!ended_ && between_) NewSession();
+  }
+
+  void NewSession() {
+    between_ = false;
+    setup_.sink.Request(msg::SessionKind::kRequestStart);
+  }
+
+  void Read() {
+    char bytes[1024];
+    const ssize_t n = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+    if (n <= 0) {
+      eof_ = true;
+      StopReading();
+      if (!buffer_.empty()) TakeLine(std::exchange(buffer_, {}));
+      UseLines();
+      return;
+    }
+    for (ssize_t i = 0; i < n && !ended_; ++i) {
+      if (bytes[i] == '\n') {
+        TakeLine(std::exchange(buffer_, {}));
+      } else if (buffer_.size() < kMaxLine) {
+        buffer_ += bytes[i];
+      }
+    }
+    UseLines();
+  }
+
+  /// Stop never waits behind other lines.
+  void TakeLine(std::string line) {
+    if (ParseLine(line, nullptr).kind == ConsoleInput::Kind::kStop) {
+      lines_.clear();
+      setup_.sink.Request(msg::SessionKind::kRequestStop);
+      return;
+    }
+    lines_.push_back(std::move(line));
+  }
+
+  /// From a terminal a line means the question in view. From a pipe lines are answers to the
+  /// questions as they come.
+  void UseLines() {
+    while (!ended_ && !lines_.empty() && (terminal_in_ || between_ || (query_ && !answered_))) {
+      const std::string line = std::move(lines_.front());
+      lines_.pop_front();
+      Use(ParseLine(line, query_ ? &*query_ : nullptr));
+    }
+    if (!eof_ || ended_ || !lines_.empty()) return;
+    // End of input: what was answered may still be confirmed; a question that nobody will answer
+    // ends it.
+    if (terminal_in_ || (query_ && !answered_) || between_ || !in_session_) Quit();
+  }
+
+  void Use(const ConsoleInput& input) {
+    using Kind = ConsoleInput::Kind;
+    using Request = msg::SessionKind;
+    switch (input.kind) {
+      case Kind::kOption:
+        if (answered_) return Print("That is answered already; u takes it back.\n");
+        answered_ = true;
+        return setup_.sink.Answer(query_->id, OneHot(input.option, query_->options.size()));
+      case Kind::kUndo:
+        return setup_.sink.Request(Request::kRequestUndo);
+      case Kind::kNoneOfThese:
+        answered_ = query_.has_value();
+        return setup_.sink.Request(Request::kRequestNoneOfThese);
+      case Kind::kStop:
+        return setup_.sink.Request(Request::kRequestStop);
+      case Kind::kResume:
+        return setup_.sink.Request(Request::kRequestResume);
+      case Kind::kQuit:
+        return Quit();
+      case Kind::kNew:
+      case Kind::kNothing:
+        if (between_) NewSession();
+        return;
+      case Kind::kUnknown:
+        return Print(input.complaint + "\n");
+    }
+  }
+
+  void Quit() {
+    setup_.sink.Request(msg::SessionKind::kRequestCancel);
+    End();
+  }
+
+  void End() {
+    if (std::exchange(ended_, true)) return;
+    setup_.sink.Finish();
+  }
+
+  void StopReading() {
+    if (std::exchange(watching_, false)) setup_.loop.RemoveFd(STDIN_FILENO);
+    if (poll_) setup_.loop.Cancel(*std::exchange(poll_, std::nullopt));
+  }
+
+  static void Print(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  }
+
+  const ConsoleConfig config_;
+  const FrontEndSetup setup_;
+  const bool terminal_in_;
+  const bool terminal_out_;
+  bool watching_ = false;
+  std::optional<RunLoop::TimerId> poll_;
+  std::string buffer_;             // of the line that is being typed
+  std::deque<std::string> lines_;  // not used yet
+  std::optional<msg::Query> query_;
+  bool answered_ = false;
+  bool in_session_ = false;
+  bool between_ = false;  // a session is over and the next was not asked for
+  bool eof_ = false;
+  bool ended_ = false;
+  int sessions_ = 0;
+};
+
+class ConsoleFactory final : public FrontEndFactory {
+ public:
+  std::string name() const override { return "console"; }
+  std::string summary() const override {
+    return "text and typed lines, on a terminal or through pipes";
+  }
+
+  void Configure(ConfigTable table) override {
+    table.Get("seconds_per_question", config_.seconds_per_question, 0.001, 3600);
+    table.Get("seconds_per_option", config_.seconds_per_option, 0, 3600);
+    table.Get("false_yes", config_.false_yes, 0, 0.5);
+    table.Get("false_no", config_.false_no, 0, 0.5);
+    table.Get("max_options", config_.max_options, 2, 64);
+  }
+
+  Result<std::unique_ptr<FrontEnd>> Create(const FrontEndSetup& setup) override {
+    return std::unique_ptr<FrontEnd>(std::make_unique<ConsoleFrontEnd>(config_, setup));
+  }
+
+ private:
+  ConsoleConfig config_;
+};
+
+const FrontEndRegistration kRegistration([]() -> std::unique_ptr<FrontEndFactory> {
+  return std::make_unique<ConsoleFactory>();
+});
+
+}  // namespace
+}  // namespace beckon::ui_bridge

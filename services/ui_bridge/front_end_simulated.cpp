@@ -1,0 +1,182 @@
+// Front end "simulated": a user who wants one action on one kind of object and answers by itself.
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <utility>
+
+#include "services/base/run_loop.h"
+#include "services/base/scene_truth.h"
+#include "services/ui_bridge/front_end.h"
+#include "services/ui_bridge/simulated_user.h"
+
+namespace beckon::ui_bridge {
+namespace {
+
+constexpr Utime kLookAgain_us = 100'000;
+constexpr int kMaxLooks = 100;  // for scene and truth, before it gives up
+
+struct SimulatedConfig {
+  SimulatedUserConfig user;
+  std::string truth_file;
+  int sessions = 1;
+  double think_s = 0;
+};
+
+class SimulatedFrontEnd final : public FrontEnd {
+ public:
+  SimulatedFrontEnd(SimulatedConfig config, const FrontEndSetup& setup)
+      : config_(std::move(config)), setup_(setup), user_(config_.user) {}
+  ~SimulatedFrontEnd() override { CancelTimer(); }
+
+  msg::Interface Announce() const override {
+    msg::Interface interface;
+    interface.kind = msg::InterfaceKind::kYesNo;
+    interface.max_options = 12;
+    interface.seconds_per_question = 1;
+    return interface;
+  }
+
+  void Begin() override { setup_.sink.Request(msg::SessionKind::kRequestStart); }
+
+  void Present(const msg::Query& query) override {
+    query_ = query;
+    looks_ = 0;
+    Think(std::max<Utime>(1, static_cast<Utime>(config_.think_s * kSecond)));
+  }
+
+  void Withdraw() override {
+    query_.reset();
+    CancelTimer();
+  }
+
+  void ShowSession(const msg::Session& event) override {
+    if (event.kind == msg::SessionKind::kBegun) in_session_ = true;
+    const bool over = event.kind == msg::SessionKind::kConfirmed ||
+                      event.kind == msg::SessionKind::kAbandoned ||
+                      event.kind == msg::SessionKind::kIdle;
+    if (!over || !std::exchange(in_session_, false)) return;
+    if (event.kind == msg::SessionKind::kAbandoned)
+      spdlog::warn("simulated user: no task: {}", event.text);
+    user_.ForgetSession();
+    if (++sessions_ >= config_.sessions) return setup_.sink.Finish();
+    setup_.sink.Request(msg::SessionKind::kRequestStart);
+  }
+
+  void ShowNotice(const std::string& text) override { spdlog::info("simulated user: {}", text); }
+  void ShowScene(const msg::Scene& scene) override { user_.SeeScene(scene); }
+
+  std::string State() const override {
+    return "simulated: " + std::to_string(sessions_) + " of " + std::to_string(config_.sessions) +
+           " sessions";
+  }
+
+ private:
+  void Think(Utime delay_us) {
+    CancelTimer();
+    timer_ = setup_.loop.After(delay_us, [this] {
+      timer_.reset();
+      Respond();
+    });
+  }
+
+  void CancelTimer() {
+    if (timer_) setup_.loop.Cancel(*std::exchange(timer_, std::nullopt));
+  }
+
+  void Respond() {
+    if (!query_) return;
+    in_session_ = true;
+    if (!LookAtTruth()) return;
+    const Response response = user_.Respond(*query_);
+    if (const auto* choice = std::get_if<Choose>(&response)) {
+      setup_.sink.Answer(query_->id, OneHot(choice->option, query_->options.size()));
+    } else if (std::holds_alternative<RefuseAll>(response)) {
+      setup_.sink.Request(msg::SessionKind::kRequestNoneOfThese);
+    } else if (const auto* give_up = std::get_if<GiveUp>(&response)) {
+      GiveUpSession(give_up->reason);
+    } else {
+      LookAgain("no scene with a table was seen");
+    }
+  }
+
+  /// The truth may be written while we start: it is read when the first question needs it.
+  bool LookAtTruth() {
+    if (config_.truth_file.empty() || truth_read_) return true;
+    auto truth = ReadSceneTruth(config_.truth_file);
+    if (!truth) {
+      LookAgain(truth.error().message);
+      return false;
+    }
+    truth_read_ = true;
+    user_.SetTruth(*std::move(truth));
+    return true;
+  }
+
+  void LookAgain(const std::string& missing) {
+    if (++looks_ > kMaxLooks) return GiveUpSession(missing);
+    Think(kLookAgain_us);
+  }
+
+  void GiveUpSession(const std::string& reason) {
+    spdlog::error("simulated user: wants {} {}: {}; the session is cancelled", config_.user.action,
+                  config_.user.category, reason);
+    setup_.sink.Request(msg::SessionKind::kRequestCancel);
+  }
+
+  const SimulatedConfig config_;
+  const FrontEndSetup setup_;
+  SimulatedUser user_;
+  bool truth_read_ = false;
+  std::optional<msg::Query> query_;
+  std::optional<RunLoop::TimerId> timer_;
+  int looks_ = 0;
+  bool in_session_ = false;
+  int sessions_ = 0;
+};
+
+class SimulatedFactory final : public FrontEndFactory {
+ public:
+  std::string name() const override { return "simulated"; }
+  std::string summary() const override { return "a user who wants --want and answers by itself"; }
+
+  void AddOptions(CLI::App& app) override {
+    auto* group = app.add_option_group("simulated", "Options of the simulated front end");
+    group->add_option("--want", want_, "What it wants, e.g. Open:Carton (the nearest carton)")
+        ->type_name("ACTION:CATEGORY");
+    group
+        ->add_option("--truth", config_.truth_file,
+                     "What stands where, as beckon-capture --truth writes it")
+        ->type_name("FILE");
+    group->add_option("--sessions", config_.sessions, "Conversations before it leaves")
+        ->check(CLI::Range(1, 1'000'000));
+    group->add_option("--flip", config_.user.flip, "Chance that an answer comes out wrong")
+        ->check(CLI::Range(0.0, 1.0));
+    group->add_option("--seed", config_.user.seed, "Of those chances");
+    group->add_option("--think", config_.think_s, "Seconds before each answer")
+        ->check(CLI::Range(0.0, 3600.0));
+  }
+
+  Result<std::unique_ptr<FrontEnd>> Create(const FrontEndSetup& setup) override {
+    const size_t colon = want_.find(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == want_.size()) {
+      return Error{"--want '" + want_ + "': expected ACTION:CATEGORY, e.g. --want Open:Carton"};
+    }
+    SimulatedConfig config = config_;
+    config.user.action = want_.substr(0, colon);
+    config.user.category = want_.substr(colon + 1);
+    if (setup.exit_after_sessions > 0) config.sessions = setup.exit_after_sessions;
+    return std::unique_ptr<FrontEnd>(std::make_unique<SimulatedFrontEnd>(std::move(config), setup));
+  }
+
+ private:
+  std::string want_;
+  SimulatedConfig config_;
+};
+
+const FrontEndRegistration kRegistration([]() -> std::unique_ptr<FrontEndFactory> {
+  return std::make_unique<SimulatedFactory>();
+});
+
+}  // namespace
+}  // namespace beckon::ui_bridge

@@ -1,0 +1,168 @@
+#include "services/ui_bridge/simulated_user.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace beckon::ui_bridge {
+namespace {
+
+const msg::SceneObject* Find(const msg::Scene& scene, int id) {
+  const auto found = std::ranges::find(scene.objects, id, &msg::SceneObject::id);
+  return found == scene.objects.end() ? nullptr : &*found;
+}
+
+float Probability(const msg::SceneObject& object, const std::string& category) {
+  for (const auto& entry : object.probabilities) {
+    if (entry.category == category) return entry.probability;
+  }
+  return object.category == category ? 1.f : 0.f;
+}
+
+double Distance(const msg::SceneObject& object) { return object.centroid_W.head<2>().norm(); }
+
+/// The option that says that none of the others is right.
+std::optional<size_t> NoneOption(const msg::Query& query) {
+  for (size_t i = query.options.size(); i-- > 0;) {
+    const auto& option = query.options[i];
+    if (option.category.empty() && option.action.empty() && option.objects.empty()) return i;
+  }
+  return {};
+}
+
+Response NoneOf(const msg::Query& query) {
+  if (const auto none = NoneOption(query)) return Choose{*none};
+  return RefuseAll{};
+}
+
+}  // namespace
+
+SimulatedUser::SimulatedUser(SimulatedUserConfig config)
+    : config_(std::move(config)), engine_(config_.seed) {}
+
+void SimulatedUser::SeeScene(const msg::Scene& scene) {
+  if (scene.has_table) newest_ = scene;
+}
+
+void SimulatedUser::ForgetSession() {
+  scene_.reset();
+  wanted_id_.reset();
+}
+
+Response SimulatedUser::Respond(const msg::Query& query) {
+  if (!scene_) {
+    if (!newest_) return CannotTell{};
+    scene_ = newest_;
+  }
+  if (!wanted_id_) {
+    wanted_id_ = ChooseObject(*scene_);
+    if (!wanted_id_) {
+      return GiveUp{"no object on the table is a " + config_.category +
+                    (truth_.known ? " (by the scene's ground truth)" : " (nor taken for one)")};
+    }
+  }
+  switch (query.kind) {
+    case msg::QueryKind::kWhatIsIt:
+      return SayWhatItIs(query);
+    case msg::QueryKind::kChoice:
+      return AnswerChoice(query);
+    default:
+      return AnswerProposition(query);
+  }
+}
+
+std::optional<int> SimulatedUser::ChooseObject(const msg::Scene& scene) const {
+  const msg::SceneObject* best = nullptr;
+  for (const auto& object : scene.objects) {
+    const bool right = truth_.known ? TrueCategory(object.id) == config_.category
+                                    : object.category == config_.category;
+    if (right && (best == nullptr || Distance(object) < Distance(*best))) best = &object;
+  }
+  if (best != nullptr) return best->id;
+  if (truth_.known) return {};
+  float highest = 0;
+  for (const auto& object : scene.objects) {
+    if (const float p = Probability(object, config_.category); p > highest) {
+      highest = p;
+      best = &object;
+    }
+  }
+  if (best == nullptr) return {};
+  return best->id;
+}
+
+std::string SimulatedUser::TrueCategory(int object_id) const {
+  const auto* object = Find(*scene_, object_id);
+  if (object == nullptr) return {};
+  const auto match = truth_.Nearest(scene_->X_WC.inverse() * object->centroid_W, kTruthReach_m);
+  return match ? truth_.objects[*match].category : std::string();
+}
+
+Response SimulatedUser::SayWhatItIs(const msg::Query& query) const {
+  const int id = query.objects.empty() ? 0 : query.objects.front().object_id;
+  std::optional<size_t> chosen;
+  if (truth_.known || id == *wanted_id_) {
+    const std::string seen = truth_.known ? TrueCategory(id) : config_.category;
+    for (size_t i = 0; i < query.options.size() && !chosen; ++i) {
+      if (!seen.empty() && query.options[i].category == seen) chosen = i;
+    }
+  } else if (const auto* object = Find(*scene_, id)) {
+    float highest = 0;
+    for (size_t i = 0; i < query.options.size(); ++i) {
+      if (query.options[i].category.empty()) continue;
+      if (const float p = Probability(*object, query.options[i].category); p > highest) {
+        highest = p;
+        chosen = i;
+      }
+    }
+  }
+  if (chosen) return Choose{*chosen};
+  return NoneOf(query);
+}
+
+// The object must be the wanted one and be called what it is: "the box" is not a carton that was
+// taken for a box. Refusing it is what leads to the question what it is.
+bool SimulatedUser::IsWanted(const msg::ObjectRef& object) const {
+  return object.object_id == *wanted_id_ && object.category == config_.category;
+}
+
+Response SimulatedUser::AnswerProposition(const msg::Query& query) {
+  const bool action = query.any_action || std::ranges::count(query.actions, config_.action) > 0;
+  const bool object = query.any_object || std::ranges::any_of(query.objects, [this](const auto& o) {
+                        return IsWanted(o);
+                      });
+  const bool yes = (action && object) != Slips();
+  return Choose{yes ? size_t{0} : size_t{1}};  // options are Yes, No in this order
+}
+
+Response SimulatedUser::AnswerChoice(const msg::Query& query) {
+  std::optional<size_t> best;
+  size_t best_breadth = std::numeric_limits<size_t>::max();
+  for (size_t i = 0; i < query.options.size(); ++i) {
+    const auto& option = query.options[i];
+    if (option.action.empty() && option.category.empty() && option.objects.empty()) continue;
+    if (!option.action.empty() && option.action != config_.action) continue;
+    if (!option.category.empty() && option.category != config_.category) continue;
+    if (!option.objects.empty() && std::ranges::count(option.objects, *wanted_id_) == 0) continue;
+    // Of several that fit, the one that says most.
+    const size_t breadth = (option.action.empty() ? 1000 : 0) + (option.category.empty() ? 1 : 0) +
+                           (option.objects.empty() ? 500 : option.objects.size());
+    if (breadth < best_breadth) {
+      best_breadth = breadth;
+      best = i;
+    }
+  }
+  if (Slips()) {
+    const size_t from = best.value_or(0);
+    return Choose{(from + 1 + engine_() % (query.options.size() - 1)) % query.options.size()};
+  }
+  if (best) return Choose{*best};
+  return NoneOf(query);
+}
+
+bool SimulatedUser::Slips() {
+  constexpr double kUnit = 0x1p-53;
+  return static_cast<double>(engine_() >> 11) * kUnit < config_.flip;
+}
+
+}  // namespace beckon::ui_bridge

@@ -1,0 +1,93 @@
+// What typed lines mean and how questions read.
+#include "services/ui_bridge/console_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace beckon::ui_bridge {
+namespace {
+
+using Kind = ConsoleInput::Kind;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+msg::Query YesNo() {
+  msg::Query query;
+  query.text = "Open the carton?";
+  query.questions_asked = 2;
+  query.expected_questions = 3.2;
+  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+  return query;
+}
+
+msg::Query WhatIsIt() {
+  msg::Query query;
+  query.text = "What is this?";
+  query.expected_questions = 1;
+  query.options = {
+      {"a box", "Box", "", {}}, {"a tin", "Tin", "", {}}, {"None of these", "", "", {}}};
+  return query;
+}
+
+TEST(ConsoleText, UnderstandsYesAndNoInAnyCase) {
+  const auto query = YesNo();
+  for (const char* line : {"y", "Y", " yes ", "YES\r", "1"}) {
+    const auto input = ParseLine(line, &query);
+    EXPECT_EQ(input.kind, Kind::kOption) << line;
+    EXPECT_EQ(input.option, 0u) << line;
+  }
+  for (const char* line : {"n", "No", "2"}) EXPECT_EQ(ParseLine(line, &query).option, 1u) << line;
+}
+
+TEST(ConsoleText, NumbersPickOptionsFromOne) {
+  const auto query = WhatIsIt();
+  EXPECT_EQ(ParseLine("3", &query).option, 2u);
+  for (const char* line : {"4", "-1", "1x", "99999999999999999999", "y"}) {
+    EXPECT_EQ(ParseLine(line, &query).kind, Kind::kUnknown) << line;
+  }
+}
+
+TEST(ConsoleText, CommandsNeedNoQuestion) {
+  EXPECT_EQ(ParseLine("s", nullptr).kind, Kind::kStop);
+  EXPECT_EQ(ParseLine("STOP", nullptr).kind, Kind::kStop);
+  EXPECT_EQ(ParseLine("r", nullptr).kind, Kind::kResume);
+  EXPECT_EQ(ParseLine("u", nullptr).kind, Kind::kUndo);
+  EXPECT_EQ(ParseLine("0", nullptr).kind, Kind::kNoneOfThese);
+  EXPECT_EQ(ParseLine("none of these", nullptr).kind, Kind::kNoneOfThese);
+  EXPECT_EQ(ParseLine("q", nullptr).kind, Kind::kQuit);
+  EXPECT_EQ(ParseLine("", nullptr).kind, Kind::kNothing);
+  EXPECT_EQ(ParseLine("y", nullptr).kind, Kind::kUnknown);
+}
+
+TEST(ConsoleText, SaysWhatMayBeTypedInstead) {
+  const auto query = YesNo();
+  EXPECT_THAT(ParseLine("maybe", &query).complaint, HasSubstr("y = yes, n = no"));
+  EXPECT_LT(ParseLine(std::string(100'000, 'x'), &query).complaint.size(), 200u);
+}
+
+TEST(ConsoleText, ShowsQuestionProgressAndOptions) {
+  const auto text = RenderQuestion(YesNo(), false);
+  EXPECT_THAT(text, HasSubstr("Question 3, about 2 more"));
+  EXPECT_THAT(text, HasSubstr("Open the carton?"));
+  EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+  const auto list = RenderQuestion(WhatIsIt(), true);
+  EXPECT_THAT(list, HasSubstr("2  a tin"));
+  EXPECT_THAT(list, Not(HasSubstr("more")));
+  EXPECT_THAT(list, HasSubstr("\x1b[1mWhat is this?"));
+}
+
+TEST(ConsoleText, TellsWhatASessionWaitsForAndHowItEnds) {
+  msg::Session event;
+  event.kind = msg::SessionKind::kBegun;
+  event.text = "waiting for a scene";
+  EXPECT_EQ(RenderSession(event), "waiting for a scene");
+  event.kind = msg::SessionKind::kConfirmed;
+  event.text = "open the carton";
+  event.questions = 1;
+  EXPECT_EQ(RenderSession(event), "Confirmed after 1 answer: open the carton");
+  event.kind = msg::SessionKind::kStopped;
+  EXPECT_THAT(RenderSession(event), HasSubstr("resume"));
+}
+
+}  // namespace
+}  // namespace beckon::ui_bridge
