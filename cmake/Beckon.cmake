@@ -51,3 +51,12 @@ function(beckon_share)
     install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/beckon)
   endforeach()
 endfunction()
+
+# beckon_core_library(NAME SOURCES... LINK LIBRARIES...): a library that a test keeps pure, free of LCM, SQLite,
+# devices, files, clocks, loggers and threads
+function(beckon_core_library name)
+  beckon_library(${name} ${ARGN})
+  get_target_property(sources ${name} SOURCES)
+  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_property(GLOBAL APPEND PROPERTY BECKON_CORE_SOURCES ${sources})
+endfunction()
