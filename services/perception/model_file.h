@@ -1,0 +1,29 @@
+// The model as a file: a magic word, the format's version, length and CRC-32 of the rest, then
+// tagged sections. Little-endian on every machine, no text that a locale could change.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/base/result.h"
+#include "services/perception/model.h"
+
+namespace beckon::perception {
+
+constexpr uint32_t kModelVersion = 1;
+
+/// Same model, same bytes.
+std::vector<uint8_t> SerialiseModel(const Model& model);
+
+/// Never reads beyond `bytes`, never allocates more than a small multiple of their number. Refuses
+/// what is truncated, altered, of another version, or fails Validate. `name` stands for the file in
+/// messages.
+Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& name);
+
+/// At most 64 MB.
+Result<Model> ReadModelFile(const std::string& path);
+/// Writes beside and renames, so that a reader never sees half a model.
+Status WriteModelFile(const std::string& path, const Model& model);
+
+}  // namespace beckon::perception
