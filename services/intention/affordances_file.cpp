@@ -1,0 +1,30 @@
+#include "services/intention/affordances_file.h"
+
+#include "services/base/config.h"
+
+namespace beckon::intention {
+
+Result<Affordances> ReadAffordances(const std::string& path) {
+  auto file = ConfigTable::Load(path);
+  if (!file) return Error{file.error().message + " (the affordances; see --affordances)"};
+  std::vector<Action> actions;
+  ConfigTable action_table = file->Section("actions");
+  for (const std::string& name : action_table.Keys()) {
+    Action action{name, ""};
+    action_table.Get(name, action.words);
+    actions.push_back(std::move(action));
+  }
+  std::vector<Affordances::Entry> entries;
+  ConfigTable category_table = file->Section("categories");
+  for (const std::string& name : category_table.Keys()) {
+    Affordances::Entry entry{name, {}};
+    category_table.Get(name, entry.actions);
+    entries.push_back(std::move(entry));
+  }
+  if (Status read = file->Finish(); !read) return read.error();
+  auto made = Affordances::Make(std::move(actions), std::move(entries));
+  if (!made) return Error{path + ": " + made.error().message};
+  return made;
+}
+
+}  // namespace beckon::intention

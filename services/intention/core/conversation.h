@@ -1,0 +1,123 @@
+// The conversation of docs/protocol.md as a state machine: events in with the time, messages out.
+// No bus, no clock, no files; what must be remembered goes through Memory before anything is
+// promised.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "services/intention/core/interview.h"
+#include "services/intention/core/label_match.h"
+#include "services/intention/core/memory.h"
+#include "services/intention/core/policy.h"
+
+namespace beckon::intention {
+
+struct ConversationConfig {
+  Utime query_period = kSecond / 2;
+  Utime announce_period = kSecond;
+  Utime task_period = kSecond / 2;
+  Utime task_lifetime = 30 * kSecond;
+  Utime scene_max_age = 5 * kSecond;  // since it arrived
+  double pose_place_m = 0.10;         // most between a pose and the object it is for
+  int max_sessions = 16;              // users at a time
+  LabelMatchConfig labels;
+};
+
+/// A message that was well formed but wrong.
+struct Refused {
+  std::string channel;
+  std::string detail;
+};
+
+/// Unsealed messages, to be published in this order.
+using Outgoing = std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, Refused>;
+using Actions = std::vector<Outgoing>;
+
+struct ConversationCounters {
+  int64_t sessions = 0;  // begun
+  int64_t confirmed = 0;
+  int64_t abandoned = 0;
+  int64_t answers = 0;  // taken
+  int64_t stale_answers = 0;
+  int64_t refused = 0;  // other messages
+  int64_t tasks = 0;    // published the first time
+  int64_t expired = 0;
+};
+
+class Conversation {
+ public:
+  /// Everything passed in must outlive the conversation.
+  Conversation(const Affordances& affordances, const Policy& policy, Memory& memory,
+               const ConversationConfig& config = {});
+  ~Conversation();
+
+  /// Takes up what an earlier run left: open tasks, the stopped state. Call once, first.
+  Actions Recover(Utime now);
+
+  Actions OnScene(const msg::Scene& scene, Utime now);
+  Actions OnPoses(const msg::Poses& poses, Utime now);
+  Actions OnInterface(const msg::Interface& announced, Utime now);
+  Actions OnAnswer(const msg::Answer& answer, Utime now);
+  Actions OnSession(const msg::Session& request, Utime now);
+  Actions OnTaskStatus(const msg::TaskStatus& status, Utime now);
+  /// Repeats what is due; call every 0.1 s.
+  Actions Tick(Utime now);
+
+  const ConversationCounters& counters() const { return counters_; }
+  bool stopped() const { return stopped_; }
+  /// One line for people.
+  std::string StateText() const;
+
+ private:
+  struct Talk;         // a running session
+  struct PendingTask;  // published and not yet acknowledged
+
+  void Start(const msg::Session& request, Utime now);
+  void TryBegin(Talk& talk, Utime now);
+  void Advance(Talk& talk, Utime now);
+  void Confirm(Talk& talk, const AcceptedTask& accepted, Utime now);
+  void Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels);
+  void End(std::string user);
+  void Stop(const msg::Session& request, Utime now);
+  void Resume(Utime now);
+  void RevokeTasks(Utime now);
+  void RepeatTasks(Utime now);
+
+  msg::Task MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const;
+  std::vector<LabelRecord> LabelsOf(const Talk& talk, Utime now) const;
+  Talk* Find(const msg::Session& request);
+  const msg::Session* Ended(const std::string& session_id) const;
+  void Announce(const msg::Session& event, Utime now);
+  void AnnounceRunning(Talk& talk, Utime now);
+  msg::Session Event(msg::SessionKind kind, Utime now) const;
+  void Refuse(const std::string& channel, const std::string& detail);
+  void MatchPoses(Talk& talk) const;
+  Actions Taken();
+
+  const Affordances& affordances_;
+  const Policy& policy_;
+  Memory& memory_;
+  const ConversationConfig config_;
+
+  Actions actions_;  // of the event being handled
+  ConversationCounters counters_;
+  std::map<std::string, std::unique_ptr<Talk>> talks_;  // by user
+  std::map<std::string, PendingTask> tasks_;            // by task id
+  std::map<std::string, DeviceModel> devices_;
+  std::deque<msg::Session> ended_;  // the last few outcomes, newest at the back
+  msg::Session latest_;             // the event that is announced while nothing runs
+  Utime latest_announced_ = 0;
+  std::optional<msg::Scene> scene_;
+  Utime scene_arrived_ = 0;
+  msg::Poses poses_;
+  int64_t last_query_id_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace beckon::intention

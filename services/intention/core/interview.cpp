@@ -1,0 +1,322 @@
+#include "services/intention/core/interview.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "services/intention/core/answer_errors.h"
+
+namespace beckon::intention {
+namespace {
+
+/// Most categories offered for an object with probabilities.
+constexpr int kMostOffered = 4;
+/// A choice is taken once it has this share of the likelihood.
+constexpr double kDecided = 0.9;
+constexpr char kNoneOfThese[] = "None of these";
+
+}  // namespace
+
+Interview::Interview(const Affordances& affordances, const Policy& policy, InterviewInput input)
+    : affordances_(affordances), policy_(policy), input_(std::move(input)) {
+  Recompute();
+}
+
+const DeviceModel& Interview::Device(const std::string& device) const {
+  static const DeviceModel kUnannounced;
+  const auto found = input_.devices.find(device);
+  return found == input_.devices.end() ? kUnannounced : found->second;
+}
+
+ErrorModel Interview::Errors(const std::string& device) const {
+  const DeviceModel& model = Device(device);
+  const ErrorModel start =
+      model.announced ? ErrorModel::Announced(model.rates) : ErrorModel::Unknown();
+  return start.Learnt(PastAnswers(input_.history, device));
+}
+
+std::vector<double> Interview::ThroughErrors(const std::vector<double>& likelihoods,
+                                             const std::string& device) const {
+  const DeviceModel& model = Device(device);
+  const size_t k = likelihoods.size();
+  const double error = model.announced ? (model.rates.false_yes + model.rates.false_no) / 2 : 0.02;
+  std::vector<double> meant(k, 0.0);
+  for (size_t row = 0; row < k; ++row) {
+    for (size_t decoded = 0; decoded < k; ++decoded) {
+      double p = row == decoded ? 1 - error : error / static_cast<double>(k - 1);
+      if (model.confusion.size() == k) p = model.confusion[row][decoded];
+      meant[row] += likelihoods[decoded] * p;
+    }
+  }
+  return meant;
+}
+
+void Interview::Answer(const std::vector<double>& likelihoods, const std::string& device) {
+  if (asked_object_ >= 0) {
+    steps_.push_back(WhatIsIt{asked_object_, ThroughErrors(likelihoods, device)});
+  } else {
+    steps_.push_back(YesNo{question_, {likelihoods[0], likelihoods[1], Errors(device).rates}});
+  }
+  Recompute();
+}
+
+void Interview::NoneOfThese(const std::string& device) {
+  if (asked_object_ >= 0) {
+    const auto& query = std::get<msg::Query>(outcome_);
+    std::vector<double> last(query.options.size(), 0.0);
+    last.back() = 1;
+    return Answer(last, device);
+  }
+  steps_.push_back(RefusedAll{});
+  Recompute();
+}
+
+bool Interview::Undo() {
+  if (steps_.empty()) return false;
+  steps_.pop_back();
+  Recompute();
+  return true;
+}
+
+void Interview::StartOpinions() {
+  opinions_.assign(input_.scene.objects.size(), {});
+  for (size_t i = 0; i < opinions_.size(); ++i) {
+    const msg::SceneObject& object = input_.scene.objects[i];
+    Opinion& opinion = opinions_[i];
+    opinion.remembered = !input_.remembered[i].empty();
+    opinion.in_doubt = object.ask_user && !opinion.remembered;
+    const std::string& name = opinion.remembered ? input_.remembered[i] : object.category;
+    opinion.category = opinion.in_doubt ? -1 : affordances_.FindCategory(name);
+  }
+}
+
+void Interview::Recompute() {
+  StartOpinions();
+  evidence_.clear();
+  relabelled_at_ = 0;
+  refused_all_ = false;
+  asked_object_ = -1;
+  for (const Step& step : steps_) {
+    if (const auto* yes_no = std::get_if<YesNo>(&step)) evidence_.push_back(*yes_no);
+    if (const auto* what = std::get_if<WhatIsIt>(&step)) Apply(*what);
+    if (std::holds_alternative<RefusedAll>(step)) refused_all_ = true;
+  }
+  std::vector<Thing> things;
+  for (size_t i = 0; i < opinions_.size(); ++i) {
+    const Eigen::Vector3d& place = input_.scene.objects[i].centroid_W;
+    things.push_back({opinions_[i].category, std::hypot(place.x(), place.y()), place.x()});
+  }
+  situation_ = MakeSituation(affordances_, things);
+  const int doubtful = NextInDoubt();
+  doubtful >= 0 ? AskObject(doubtful) : AskTask();
+}
+
+void Interview::Apply(const WhatIsIt& step) {
+  Opinion& opinion = opinions_[step.object];
+  if (opinion.share.size() != step.likelihoods.size())
+    opinion.share.assign(step.likelihoods.size(), 1.0);
+  double sum = 0;
+  for (size_t i = 0; i < step.likelihoods.size(); ++i)
+    sum += opinion.share[i] *= step.likelihoods[i];
+  if (!(sum > 0)) return opinion.share.clear();  // contradictory: ask again
+  for (double& share : opinion.share) share /= sum;
+  const auto best = std::max_element(opinion.share.begin(), opinion.share.end());
+  if (*best < kDecided) return;
+  const auto chosen = static_cast<size_t>(best - opinion.share.begin());
+  const auto offer = Offer(step.object);
+  opinion.share.clear();
+  if (chosen < offer.size()) return Relabel(step.object, offer[chosen]);
+  opinion.refused += static_cast<int>(offer.size());
+  if (Offer(step.object).empty()) Relabel(step.object, -1);
+}
+
+void Interview::Relabel(int object, int category) {
+  Opinion& opinion = opinions_[object];
+  const bool changed = opinion.category != category;
+  opinion.category = category;
+  opinion.given = true;
+  if (!changed) return;
+  // Answers about what the object was taken for say nothing any more.
+  std::erase_if(evidence_, [object](const YesNo& step) {
+    return step.question.objects != kAny && (step.question.objects >> object & 1) != 0;
+  });
+  relabelled_at_ = evidence_.size();
+  refused_all_ = false;
+}
+
+std::vector<int> Interview::Offer(int object) const {
+  const auto& probabilities = input_.scene.objects[object].probabilities;
+  std::vector<int> categories;
+  for (const auto& p : probabilities) {
+    const int category = affordances_.FindCategory(p.category);
+    if (category >= 0 && categories.size() < kMostOffered) categories.push_back(category);
+  }
+  if (categories.empty()) {
+    categories.resize(affordances_.categories().size());
+    std::iota(categories.begin(), categories.end(), 0);
+  }
+  const auto skip = std::min<size_t>(opinions_[object].refused, categories.size());
+  categories.erase(categories.begin(), categories.begin() + static_cast<std::ptrdiff_t>(skip));
+  const auto most = static_cast<size_t>(std::max(1, Device(input_.device).max_options - 1));
+  if (categories.size() > most) categories.resize(most);
+  return categories;
+}
+
+int Interview::NextInDoubt() const {
+  int next = -1;
+  for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
+    if (!opinions_[i].in_doubt || opinions_[i].given) continue;
+    if (next < 0 || input_.scene.objects[i].confidence < input_.scene.objects[next].confidence)
+      next = i;
+  }
+  return next;
+}
+
+int Interview::NextToRecheck() const {
+  int next = -1;
+  const auto later = [&](int i) {
+    return std::pair(opinions_[i].remembered, input_.scene.objects[i].confidence);
+  };
+  for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
+    if (opinions_[i].given) continue;
+    if (next < 0 || later(i) < later(next)) next = i;
+  }
+  return next;
+}
+
+Question Interview::Resolved(Question question) const {
+  if (question.kind == QuestionKind::kFull) {
+    question.pair =
+        situation_.Find(std::countr_zero(question.objects), std::countr_zero(question.actions));
+  }
+  return question;
+}
+
+std::unique_ptr<Dialogue> Interview::Replayed(size_t from) const {
+  auto dialogue = policy_.Begin(situation_, input_.history, Errors(input_.device), input_.seed);
+  for (size_t i = from; i < evidence_.size(); ++i) {
+    dialogue->Hear(Resolved(evidence_[i].question), evidence_[i].evidence);
+  }
+  return dialogue;
+}
+
+void Interview::AskTask() {
+  auto dialogue = Replayed(0);
+  auto next = dialogue->Ask();
+  if (!next && !dialogue->Accepted() && relabelled_at_ > 0) {
+    // What was answered before an object turned out to be something else rules everything out:
+    // forget it.
+    dialogue = Replayed(relabelled_at_);
+    next = dialogue->Ask();
+  }
+  if (const auto accepted = dialogue->Accepted())
+    return Accept(*accepted, dialogue->CurrentBelief());
+  if (next && !refused_all_) {
+    question_ = *next;
+    outcome_ = YesNoQuery(*next, dialogue->CurrentBelief());
+    return;
+  }
+  if (const int object = NextToRecheck(); object >= 0) return AskObject(object);
+  outcome_ =
+      GaveUp{situation_.pairs.empty()
+                 ? "I know of nothing to do with the objects on the table. Nothing was done."
+                 : "It is none of the tasks that I know for these objects. Nothing was done."};
+}
+
+void Interview::Accept(int pair, const Belief& belief) {
+  const Pair& wanted = situation_.pairs[pair];
+  const Instance& instance = situation_.objects[wanted.object];
+  outcome_ = AcceptedTask{wanted.object,
+                          affordances_.categories()[instance.category].name,
+                          affordances_.actions()[wanted.action].name,
+                          instance.rank,
+                          belief.best_pair == pair ? belief.best_posterior : 1,
+                          TaskText(affordances_, situation_, wanted)};
+}
+
+msg::ObjectRef Interview::Ref(int object) const {
+  const int category = opinions_[object].category;
+  return {
+      input_.scene.objects[object].id,
+      category < 0 ? std::string(msg::kUnknownCategory) : affordances_.categories()[category].name,
+      std::max(1, situation_.objects[object].rank)};
+}
+
+msg::Query Interview::YesNoQuery(const Question& question, const Belief& belief) const {
+  msg::Query query;
+  switch (question.kind) {
+    case QuestionKind::kAction:
+      query.kind = msg::QueryKind::kAction;
+      break;
+    case QuestionKind::kObject:
+      query.kind = msg::QueryKind::kObject;
+      break;
+    case QuestionKind::kFull:
+      query.kind = msg::QueryKind::kFull;
+      break;
+    case QuestionKind::kCategory:
+      query.kind = msg::QueryKind::kCategory;
+      break;
+    case QuestionKind::kSet:
+      query.kind = msg::QueryKind::kSet;
+      break;
+  }
+  query.text = Text(affordances_, situation_, question);
+  query.any_action = question.actions == kAny;
+  for (size_t i = 0; !query.any_action && i < affordances_.actions().size(); ++i) {
+    if (question.actions >> i & 1) query.actions.push_back(affordances_.actions()[i].name);
+  }
+  query.any_object = question.objects == kAny;
+  for (size_t i = 0; !query.any_object && i < situation_.objects.size(); ++i) {
+    if (question.objects >> i & 1) query.objects.push_back(Ref(static_cast<int>(i)));
+  }
+  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+  query.n_candidates = belief.possible_pairs;
+  query.expected_questions = belief.expected_questions;
+  query.best_posterior = belief.best_posterior;
+  return query;
+}
+
+void Interview::AskObject(int object) {
+  asked_object_ = object;
+  msg::Query query;
+  query.kind = msg::QueryKind::kWhatIsIt;
+  query.text = "What is this object?";
+  query.any_object = false;
+  query.objects = {Ref(object)};
+  const int id = input_.scene.objects[object].id;
+  for (const int category : Offer(object)) {
+    const std::string& name = affordances_.categories()[category].name;
+    query.options.push_back({WithArticle(Noun(name)), name, "", {id}});
+  }
+  query.options.push_back({kNoneOfThese, msg::kUnknownCategory, "", {id}});
+  query.n_candidates = situation_.pair_count();
+  query.expected_questions = 1;
+  outcome_ = std::move(query);
+}
+
+std::vector<AnswerRecord> Interview::Answers() const {
+  std::vector<AnswerRecord> answers;
+  const auto* task = std::get_if<AcceptedTask>(&outcome_);
+  if (task == nullptr) return answers;
+  const Pair wanted{task->object, affordances_.FindAction(task->action)};
+  for (const YesNo& step : evidence_) {
+    answers.push_back(
+        {step.question.kind, step.evidence.yes, step.evidence.no, step.question.Holds(wanted)});
+  }
+  return answers;
+}
+
+std::vector<GivenLabel> Interview::Labels() const {
+  std::vector<GivenLabel> labels;
+  for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
+    if (!opinions_[i].given) continue;
+    const int category = opinions_[i].category;
+    labels.push_back(
+        {i, category < 0 ? msg::kUnknownCategory : affordances_.categories()[category].name});
+  }
+  return labels;
+}
+
+}  // namespace beckon::intention

@@ -1,0 +1,71 @@
+// What every way of asking looks like from outside: a policy begins a dialogue about a situation,
+// the dialogue says what to ask next and hears answers until a candidate is accepted.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/intention/core/affordances.h"
+#include "services/intention/core/error_model.h"
+#include "services/intention/core/question.h"
+#include "services/intention/core/situation.h"
+
+namespace beckon::intention {
+
+/// A confirmed session of a user.
+struct PastSession {
+  int category = 0;
+  int action = 0;
+  int rank = 1;
+  std::string device;
+  AnswerCounts answers;
+};
+
+/// Of one user, oldest first.
+using UserHistory = std::vector<PastSession>;
+
+struct Belief {
+  int best_pair = -1;             // index in Situation::pairs, -1 where nothing is left
+  double best_posterior = 0;      // 0..1
+  int possible_pairs = 0;         // with a posterior above 1e-9
+  double expected_questions = 0;  // still to be answered
+};
+
+/// One session. Deterministic: the same situation, history, seed and answers give the same
+/// questions.
+class Dialogue {
+ public:
+  virtual ~Dialogue() = default;
+
+  /// The next question; nothing where every candidate was ruled out. Constant until Hear.
+  virtual std::optional<Question> Ask() = 0;
+  /// An answer to a question (not necessarily the last one asked).
+  virtual void Hear(const Question& question, const Evidence& evidence) = 0;
+  /// The accepted candidate: index in Situation::pairs.
+  virtual std::optional<int> Accepted() const = 0;
+  virtual Belief CurrentBelief() const = 0;
+};
+
+class Policy {
+ public:
+  virtual ~Policy() = default;
+  /// `situation` must outlive the dialogue. `seed` decides ties.
+  virtual std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory& history,
+                                          const ErrorModel& errors, uint64_t seed) const = 0;
+};
+
+/// Which questions may be asked.
+enum class QueryFamilies {
+  kActionObjectFull,  // the dissertation's
+  kAll                // also categories and sets of objects
+};
+
+/// "adaptive", "oain", "count", "random", "random-scene"; fails on other names. `affordances` must
+/// outlive the policy.
+Result<std::unique_ptr<Policy>> MakePolicy(const std::string& name, const Affordances& affordances,
+                                           QueryFamilies families);
+
+}  // namespace beckon::intention

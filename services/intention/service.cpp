@@ -1,0 +1,199 @@
+#include "services/intention/service.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "services/base/app.h"
+#include "services/base/status_reporter.h"
+#include "services/intention/affordances_file.h"
+#include "services/intention/core/conversation.h"
+#include "services/intention/core/policies.h"
+#include "services/intention/store.h"
+
+namespace beckon::intention {
+namespace {
+
+constexpr Utime kTickPeriod = kSecond / 10;
+/// A query, announcement or status that is older than this is refused by its receivers.
+constexpr Utime kMessageLifetime = 10 * kSecond;
+/// Where interfaces make errors: that the user wants something we do not know of.
+constexpr double kNonePrior = 0.002;
+
+std::string HostName() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name[0] == '\0' ? "unnamed" : name.data();
+}
+
+std::string DefaultDatabase() {
+  namespace fs = std::filesystem;
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path folder = data != nullptr && *data != '\0'
+                              ? fs::path(data)
+                              : fs::path(home == nullptr ? "." : home) / ".local" / "share";
+  return (folder / "beckon" / "beckon.db").string();
+}
+
+std::unique_ptr<Policy> PolicyOf(const ServiceConfig& config, const Affordances& affordances) {
+  if (config.policy == "oain") return MakeOainPolicy(affordances);
+  AdaptiveConfig adaptive;
+  adaptive.families =
+      config.queries == "aof" ? QueryFamilies::kActionObjectFull : QueryFamilies::kAll;
+  adaptive.none_prior = kNonePrior;
+  return MakeAdaptivePolicy(adaptive);
+}
+
+ConversationConfig ConversationConfigOf(const ServiceConfig& config) {
+  ConversationConfig conversation;
+  conversation.task_lifetime = static_cast<Utime>(config.task_lifetime_s * kSecond);
+  conversation.scene_max_age = static_cast<Utime>(config.scene_max_age_s * kSecond);
+  return conversation;
+}
+
+}  // namespace
+
+Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
+  ServiceConfig config;
+  table.Get("db", config.db);
+  table.Get("policy", config.policy, {"adaptive", "oain"});
+  table.Get("queries", config.queries, {"all", "aof"});
+  table.Get("affordances", config.affordances);
+  table.Get("machine", config.machine);
+  table.Get("task_lifetime_s", config.task_lifetime_s, 1, 3600);
+  table.Get("scene_max_age_s", config.scene_max_age_s, 0.1, 3600);
+  if (Status read = table.Finish(); !read) return read.error();
+  return config;
+}
+
+void FillDefaults(ServiceConfig& config) {
+  if (config.db.empty()) config.db = DefaultDatabase();
+  if (config.affordances.empty()) config.affordances = SharedFile("affordances.toml");
+  if (config.machine.empty()) config.machine = HostName();
+}
+
+struct Service::State {
+  State(const ServiceConfig& config, Affordances known, std::unique_ptr<Store> opened, Bus& the_bus,
+        RunLoop& the_loop, const Clock& the_clock)
+      : affordances(std::move(known)),
+        policy(PolicyOf(config, affordances)),
+        store(std::move(opened)),
+        conversation(affordances, *policy, *store, ConversationConfigOf(config)),
+        sender(config.machine + "/intention"),
+        bus(the_bus),
+        loop(the_loop),
+        clock(the_clock) {}
+
+  ~State() { loop.Cancel(tick); }
+
+  template <typename Message>
+  void Feed(Actions (Conversation::*handler)(const Message&, Utime)) {
+    bus.Subscribe<Message>([this, handler](Message message) {
+      Publish((conversation.*handler)(message, clock.Now()));
+    });
+  }
+
+  void Subscribe() {
+    Feed<msg::Scene>(&Conversation::OnScene);
+    Feed<msg::Poses>(&Conversation::OnPoses);
+    Feed<msg::Interface>(&Conversation::OnInterface);
+    Feed<msg::Session>(&Conversation::OnSession);
+    Feed<msg::TaskStatus>(&Conversation::OnTaskStatus);
+    bus.Subscribe<msg::Answer>([this](msg::Answer answer) {
+      const Stopwatch stopwatch;
+      Publish(conversation.OnAnswer(answer, clock.Now()));
+      const auto us = static_cast<int64_t>(stopwatch.Milliseconds() * 1000);
+      question_us = us;
+      question_us_max = std::max(question_us_max, us);
+    });
+    tick = loop.Every(kTickPeriod, [this] { Publish(conversation.Tick(clock.Now())); });
+    status = std::make_unique<StatusReporter>("intention", bus, loop,
+                                              [this](msg::Status& s) { Fill(s); });
+    Publish(conversation.Recover(clock.Now()));
+  }
+
+  msg::Seal Seal(Utime expires) {
+    // Grows over restarts too.
+    counter = std::max(counter + 1, clock.Now());
+    msg::Seal seal;
+    seal.sender = sender;
+    seal.counter = counter;
+    seal.expires_utime = expires;
+    return seal;
+  }
+
+  template <typename Message>
+  void Send(Message message, Utime expires) {
+    message.seal = Seal(expires);
+    if (Status sent = bus.Publish(message); !sent) spdlog::error("{}", sent.error().message);
+  }
+
+  void PublishOne(const msg::Query& query) { Send(query, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Session& event) { Send(event, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
+  void PublishOne(const Refused& refused) { bus.Refuse(refused.channel, refused.detail); }
+
+  void Publish(const Actions& actions) {
+    for (const Outgoing& action : actions) {
+      std::visit([this](const auto& one) { PublishOne(one); }, action);
+    }
+  }
+
+  void Fill(msg::Status& s) {
+    const ConversationCounters& c = conversation.counters();
+    s.state = conversation.StateText();
+    const auto rows = store->RowCount();
+    for (const auto& [name, value] :
+         std::map<std::string, int64_t>{{"sessions", c.sessions},
+                                        {"confirmed", c.confirmed},
+                                        {"abandoned", c.abandoned},
+                                        {"answers", c.answers},
+                                        {"stale_answers", c.stale_answers},
+                                        {"refused_requests", c.refused},
+                                        {"tasks", c.tasks},
+                                        {"tasks_expired", c.expired},
+                                        {"db_rows", rows ? *rows : -1},
+                                        {"question_us", question_us},
+                                        {"question_us_max", question_us_max}}) {
+      s.counters.push_back({name, value});
+    }
+  }
+
+  const Affordances affordances;
+  const std::unique_ptr<Policy> policy;
+  const std::unique_ptr<Store> store;
+  Conversation conversation;
+  const std::string sender;
+  Bus& bus;
+  RunLoop& loop;
+  const Clock& clock;
+  std::unique_ptr<StatusReporter> status;
+  RunLoop::TimerId tick = 0;
+  int64_t counter = 0;
+  int64_t question_us = 0;  // from an answer to what follows it, last and longest
+  int64_t question_us_max = 0;
+};
+
+Service::Service(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Service::~Service() = default;
+
+Result<std::unique_ptr<Service>> Service::Start(const ServiceConfig& config, Bus& bus,
+                                                RunLoop& loop, const Clock& clock) {
+  auto affordances = ReadAffordances(config.affordances);
+  if (!affordances) return affordances.error();
+  auto store = Store::Open(config.db, config.machine);
+  if (!store) return store.error();
+  auto state =
+      std::make_unique<State>(config, *std::move(affordances), *std::move(store), bus, loop, clock);
+  state->Subscribe();
+  return std::unique_ptr<Service>(new Service(std::move(state)));
+}
+
+}  // namespace beckon::intention

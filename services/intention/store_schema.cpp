@@ -1,0 +1,133 @@
+#include "services/intention/store_schema.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <array>
+
+namespace beckon::intention {
+namespace {
+
+/// Each entry leads from version i to i + 1. Never edit an entry that was released: add one.
+constexpr std::array<const char*, kSchemaVersion> kSteps = {
+    // 1: the append-only history, as it is shared between machines; and this machine's tasks.
+    R"sql(
+      CREATE TABLE rows (
+        origin TEXT NOT NULL CHECK (origin <> ''),
+        seq INTEGER NOT NULL CHECK (seq >= 1),
+        kind TEXT NOT NULL,              -- session, label, forget, ...
+        uid TEXT NOT NULL UNIQUE,        -- e.g. session/<session id>
+        user TEXT NOT NULL,
+        utime INTEGER NOT NULL,          -- us since the epoch
+        body TEXT NOT NULL CHECK (json_valid(body)),
+        PRIMARY KEY (origin, seq)
+      );
+      CREATE INDEX rows_by_user ON rows (kind, user, utime);
+      CREATE TRIGGER rows_are_never_changed BEFORE UPDATE ON rows
+        BEGIN SELECT RAISE(ABORT, 'the history is append-only'); END;
+      CREATE TRIGGER rows_are_never_deleted BEFORE DELETE ON rows
+        BEGIN SELECT RAISE(ABORT, 'the history is append-only'); END;
+      CREATE TABLE tasks (
+        task_id TEXT PRIMARY KEY,
+        encoded BLOB NOT NULL            -- beckon.task_t, unsealed
+      );
+      CREATE TABLE task_states (
+        task_id TEXT NOT NULL,
+        state INTEGER NOT NULL,          -- of task_status_t
+        utime INTEGER NOT NULL
+      );
+      CREATE INDEX task_states_by_task ON task_states (task_id);
+    )sql",
+    // 2: the stopped state outlives the process; counts as views.
+    R"sql(
+      CREATE TABLE stops (
+        utime INTEGER NOT NULL,
+        stopped INTEGER NOT NULL CHECK (stopped IN (0, 1))
+      );
+      CREATE VIEW forgotten AS
+        SELECT r.uid FROM rows r JOIN rows f ON f.kind = 'forget'
+        WHERE r.kind IN ('session', 'label') AND (
+          json_extract(f.body, '$.session_id') = json_extract(r.body, '$.session_id')
+          OR (json_extract(f.body, '$.user') = r.user AND EXISTS (
+            SELECT 1 FROM json_each(f.body, '$.covers') c WHERE c.key = r.origin AND c.value >= r.seq)));
+      CREATE VIEW sessions AS
+        SELECT origin, seq, user, utime, body,
+          json_extract(body, '$.session_id') AS session_id,
+          json_extract(body, '$.category') AS category,
+          json_extract(body, '$.action') AS action,
+          json_extract(body, '$.instance') AS instance,
+          json_extract(body, '$.questions') AS questions,
+          json_extract(body, '$.device') AS device
+        FROM rows WHERE kind = 'session' AND uid NOT IN (SELECT uid FROM forgotten);
+      CREATE VIEW labels AS
+        SELECT origin, seq, user, utime, body,
+          json_extract(body, '$.category') AS category,
+          json_extract(body, '$.source') AS source
+        FROM rows WHERE kind = 'label' AND uid NOT IN (SELECT uid FROM forgotten);
+      CREATE VIEW counts AS
+        SELECT user, category, action, COUNT(*) AS n, SUM(questions) AS questions, MAX(utime) AS last_utime
+        FROM sessions GROUP BY user, category, action;
+    )sql"};
+
+int PragmaValue(SQLite::Database& database, const char* pragma) {
+  return database.execAndGet(std::string("PRAGMA ") + pragma).getInt();
+}
+
+}  // namespace
+
+Error Explain(const SQLite::Exception& error, const std::string& path) {
+  switch (error.getErrorCode()) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return Error{path +
+                   ": the database is locked by another process; end it, or use another --db"};
+    case SQLITE_READONLY:
+      return Error{path +
+                   ": the database is read-only; make the file and its folder writable, or use "
+                   "another --db"};
+    case SQLITE_CANTOPEN:
+      return Error{path + ": cannot open the database; the folder must exist and be writable"};
+    case SQLITE_NOTADB:
+      return Error{
+          path +
+          ": is not a database (expected an SQLite file of beckon-intention); use another --db"};
+    case SQLITE_CORRUPT:
+      return Error{path + ": the database is damaged (" + error.what() +
+                   "); put it aside and import a backup (beckon-intention import)"};
+    case SQLITE_FULL:
+      return Error{path + ": the disk is full; make room"};
+    default:
+      return Error{path + ": database error: " + error.what()};
+  }
+}
+
+Status CheckVersion(SQLite::Database& database, const std::string& path) {
+  const int version = PragmaValue(database, "user_version");
+  const int application = PragmaValue(database, "application_id");
+  const int tables = database.execAndGet("SELECT COUNT(*) FROM sqlite_master").getInt();
+  if (application != kApplicationId && (version != 0 || tables != 0)) {
+    return Error{path + ": is a database of another program; use another --db"};
+  }
+  if (version > kSchemaVersion) {
+    return Error{path + ": was written by a newer version (schema " + std::to_string(version) +
+                 ", this program knows " + std::to_string(kSchemaVersion) +
+                 "); update beckon-intention"};
+  }
+  return {};
+}
+
+Status Migrate(SQLite::Database& database, const std::string& path) {
+  if (Status known = CheckVersion(database, path); !known) return known;
+  for (;;) {
+    // In the transaction: another process may be doing the same.
+    SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
+    const int version = PragmaValue(database, "user_version");
+    if (version >= kSchemaVersion) return {};
+    database.exec(kSteps[static_cast<size_t>(version)]);
+    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+    database.exec("PRAGMA user_version = " + std::to_string(version + 1));
+    step.commit();
+  }
+}
+
+}  // namespace beckon::intention
