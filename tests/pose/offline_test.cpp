@@ -1,0 +1,181 @@
+// The offline mode as users run it: lists in, JSON and pictures out, one clear line on bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "services/pose/pose_files.h"
+#include "tests/pose/views.h"
+
+namespace beckon::pose {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class OfflineTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    dir_ = fs::temp_directory_path() /
+           ("beckon_pose_" + std::string(test->name()) + "_" + std::to_string(getpid()));
+    fs::create_directories(dir_);
+  }
+  void TearDown() override { fs::remove_all(dir_); }
+
+  std::string Path(const std::string& name) const { return (dir_ / name).string(); }
+  std::string Read(const std::string& name) const {
+    std::ifstream file(Path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(Path(name), std::ios::binary) << text;
+  }
+  void WriteCloud(const std::string& name, const std::vector<Eigen::Vector3f>& points) const {
+    std::ostringstream text;
+    for (const auto& p : points) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    Write(name, text.str());
+  }
+
+  // Exit code; what it printed on standard error is in `error_`.
+  int Run(const std::string& arguments) {
+    const std::string command =
+        std::string(BECKON_POSE_PROGRAM) + " " + arguments + " >/dev/null 2>" + Path("stderr");
+    const int status = std::system(command.c_str());
+    error_ = Read("stderr");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void ExpectRefusal(const std::string& arguments, const std::string& says) {
+    EXPECT_EQ(Run(arguments), 2) << arguments;
+    EXPECT_THAT(error_, HasSubstr(says));
+    EXPECT_EQ(std::count(error_.begin(), error_.end(), '\n'), 1) << error_;
+  }
+
+  fs::path dir_;
+  std::string error_;
+  const TableView box_ =
+      ViewOnTable(MakeShape({0.03, 0.04, 0.06}, 0.1, 0.1, {0, 0, 0.06}, {0, 0, 0.5}), 2000, 0.001);
+  const TableView can_ =
+      ViewOnTable(MakeShape({0.03, 0.03, 0.06}, 0.1, 1, {0, 0, 0.06}), 2000, 0.001);
+};
+
+std::string ListLine(const std::string& file, const Plane& plane) {
+  return json{{"file", file},
+              {"plane", {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.offset_m}}}
+             .dump() +
+         "\n";
+}
+
+TEST_F(OfflineTest, FitsAListInItsOrder) {
+  fs::create_directories(dir_ / "clouds");
+  WriteCloud("clouds/box.xyz", box_.points_C);
+  WriteCloud("clouds/can.xyz", can_.points_C);
+  Write("list.jsonl",
+        ListLine("clouds/can.xyz", can_.table_C) + "\n" + ListLine("clouds/box.xyz", box_.table_C));
+  ASSERT_EQ(Run("--list " + Path("list.jsonl") + " --json " + Path("out.json") + " --picture " +
+                Path("out.png") + " --repeat 3"),
+            0)
+      << error_;
+  const json poses = json::parse(Read("out.json"));
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0]["file"], "clouds/can.xyz");
+  EXPECT_EQ(poses[1]["file"], "clouds/box.xyz");
+  for (int i = 0; i < 2; ++i) {
+    const json& pose = poses[static_cast<size_t>(i)];
+    const Eigen::Vector3d truth = (i == 0 ? can_ : box_).shape_C.X_FO.translation();
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(pose["position"][static_cast<size_t>(k)].get<double>(), truth[k], 0.002);
+    EXPECT_EQ(pose["rotation"].size(), 4u);
+    EXPECT_EQ(pose["semi_axes"].size(), 3u);
+    EXPECT_EQ(pose["epsilon"].size(), 2u);
+    EXPECT_EQ(pose["taper"].size(), 2u);
+    EXPECT_EQ(pose["covariance"].size(), 6u);
+    EXPECT_TRUE(pose["converged"].get<bool>());
+    EXPECT_TRUE(pose["ambiguous"].is_boolean());
+    EXPECT_GT(pose["mean_radial_distance_m"].get<double>(), 0);
+    EXPECT_GT(pose["time_ms"].get<double>(), 0);
+    ASSERT_FALSE(pose["grasps"].empty());
+    EXPECT_GT(pose["grasps"][0]["opening_m"].get<double>(), 0);
+  }
+  EXPECT_EQ(Read("out.png").substr(1, 3), "PNG");
+}
+
+TEST_F(OfflineTest, FitsInputsWithAndWithoutAPlane) {
+  WriteCloud("box.xyz", box_.points_C);
+  const Plane& t = box_.table_C;
+  std::ostringstream plane;
+  plane << t.normal.x() << ',' << t.normal.y() << ',' << t.normal.z() << ',' << t.offset_m;
+  const std::string input = "--input " + Path("box.xyz") + " --json " + Path("out.json");
+  ASSERT_EQ(Run(input + " --plane " + plane.str() + " --method multiscale"), 0) << error_;
+  EXPECT_EQ(json::parse(Read("out.json"))[0]["method"], "multiscale");
+  ASSERT_EQ(Run(input), 0) << error_;
+  EXPECT_TRUE(json::parse(Read("out.json"))[0]["grasps"].empty());
+}
+
+TEST_F(OfflineTest, TellsWhyACloudWasNotFitted) {
+  WriteCloud("five.xyz", {box_.points_C.begin(), box_.points_C.begin() + 5});
+  ASSERT_EQ(Run("--input " + Path("five.xyz") + " --json " + Path("out.json")), 0) << error_;
+  const json pose = json::parse(Read("out.json"))[0];
+  EXPECT_FALSE(pose["converged"].get<bool>());
+  EXPECT_THAT(pose["reason"].get<std::string>(), HasSubstr("fewer than 20"));
+  for (const auto& a : pose["semi_axes"]) EXPECT_GT(a.get<double>(), 0);
+}
+
+TEST_F(OfflineTest, RefusesBadInputInOneLine) {
+  WriteCloud("box.xyz", box_.points_C);
+  const std::string json_out = " --json " + Path("out.json");
+  const std::string box = "--input " + Path("box.xyz");
+  ExpectRefusal("--input " + Path("absent.xyz") + json_out, "absent.xyz");
+  ExpectRefusal("--list " + Path("absent.jsonl") + json_out, "absent.jsonl");
+  ExpectRefusal(box + json_out + " --method classic", "adaptive, multiscale");
+  ExpectRefusal(box + json_out + " --plane 0,0,1", "4 numbers");
+  ExpectRefusal(box + json_out + " --plane 0,0,0,1", "not zero");
+  ExpectRefusal(box + json_out + " --plane a,b,c,d", "found 'a'");
+  ExpectRefusal(box, "--json");
+  ExpectRefusal("--json " + Path("out.json"), "--input");
+  ExpectRefusal(box + " --json " + Path("no/such/folder.json"), "cannot be written");
+  ExpectRefusal(box + json_out + " --picture " + Path("out.nonsense"), "cannot be written");
+  ExpectRefusal(box + json_out + " --repeat 0", "--repeat");
+}
+
+TEST_F(OfflineTest, NamesTheLineOfAListThatIsWrong) {
+  WriteCloud("box.xyz", box_.points_C);
+  const std::string good = ListLine("box.xyz", box_.table_C);
+  const std::string run = "--list " + Path("list.jsonl") + " --json " + Path("out.json");
+  for (const char* bad :
+       {"{bad", "[]", "{\"plane\": [0,0,1,0]}", "{\"file\": 3}",
+        "{\"file\": \"box.xyz\", \"plane\": [0,0,1]}",
+        "{\"file\": \"box.xyz\", \"plane\": [0,0,\"x\",1]}",
+        "{\"file\": \"box.xyz\", \"plane\": [0,0,0,1]}", "{\"file\": \"absent.pcd\"}"}) {
+    Write("list.jsonl", good + bad + "\n");
+    ExpectRefusal(run, "list.jsonl:2");
+  }
+  Write("list.jsonl", "\n");
+  ExpectRefusal(run, "names no cloud");
+}
+
+TEST_F(OfflineTest, ChecksItsConfiguration) {
+  Write("good.toml", "method = 'multiscale'\n");
+  Write("bad.toml", "methud = 'multiscale'\n");
+  EXPECT_EQ(Run("--check-config --config " + Path("good.toml")), 0) << error_;
+  ExpectRefusal("--check-config --config " + Path("bad.toml"), "methud");
+}
+
+TEST(PlaneText, IsNormalised) {
+  const auto plane = ParsePlane("0,-2,0,1");
+  ASSERT_TRUE(plane);
+  EXPECT_EQ(plane->normal, Eigen::Vector3d(0, -1, 0));
+  EXPECT_EQ(plane->offset_m, 0.5);
+  for (const char* bad : {"", "1", "1,2,3,4,5", "nan,0,0,1", "0,0,1,inf", "1,2,,4", "1,2,3,4x"}) {
+    EXPECT_FALSE(ParsePlane(bad)) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace beckon::pose

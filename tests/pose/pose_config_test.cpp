@@ -1,0 +1,47 @@
+// The configuration file is strict.
+#include "services/pose/pose_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace beckon::pose {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<PoseConfig> Read(const std::string& text) {
+  const auto table = ConfigTable::Parse(text, "pose.toml");
+  if (!table) return table.error();
+  return ReadPoseConfig(*table);
+}
+
+TEST(PoseConfigFile, IsDefaultsWhenEmpty) {
+  const auto config = Read("");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->gripper.max_opening_m, 0.10);
+  EXPECT_EQ(config->fit.multiscale.voxels_m.size(), 3u);
+}
+
+TEST(PoseConfigFile, OverridesDefaults) {
+  const auto config = Read(
+      "method = 'multiscale'\n[multiscale]\nvoxels_m = [0.02]\n[gripper]\nmax_opening_m = 0.08\n"
+      "[adaptive]\nfine_points = 200\n[limits]\nmax_extent_m = 1.0\n");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->fit.method, Method::kMultiscale);
+  EXPECT_EQ(config->fit.multiscale.voxels_m, std::vector<double>{0.02});
+  EXPECT_EQ(config->gripper.max_opening_m, 0.08);
+  EXPECT_EQ(config->fit.adaptive.fine_points, 200);
+}
+
+TEST(PoseConfigFile, RefusesWhatItDoesNotKnow) {
+  for (const char* text : {"methud = 'adaptive'", "[gripper]\nwidth = 1",
+                           "[multiscale]\nvoxels_m = [0.0]", "[adaptive]\nfine_points = -1"}) {
+    EXPECT_FALSE(Read(text)) << text;
+  }
+  const auto method = Read("method = 'hierarchical'");
+  ASSERT_FALSE(method);
+  EXPECT_THAT(method.error().message, HasSubstr("adaptive, multiscale"));
+}
+
+}  // namespace
+}  // namespace beckon::pose

@@ -1,0 +1,29 @@
+// Clouds of known superquadrics for tests: whole surfaces, and what one camera sees of them.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "services/pose/surface.h"
+
+namespace beckon::pose {
+
+Superquadric MakeShape(const Eigen::Vector3d& semi_axes, double e1, double e2,
+                       const Eigen::Vector3d& position = Eigen::Vector3d::Zero(),
+                       const Eigen::Vector3d& rotation_vector = Eigen::Vector3d::Zero());
+
+/// The whole surface, with noise of `sigma_m` along the rays from the origin, as a camera has it.
+std::vector<Eigen::Vector3f> WholeSurface(const Superquadric& shape, int count, double sigma_m = 0,
+                                          unsigned seed = 1);
+
+/// A shape on a table in front of a camera at the origin of C, 0.8 m away and 40 degrees above it.
+struct TableView {
+  Superquadric shape_C;
+  Plane table_C;
+  std::vector<Eigen::Vector3f> points_C;  // of the side that the camera sees
+};
+/// `shape_W`: standing on z = 0 with its centre above the origin; its pose is given in W.
+TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m = 0,
+                      unsigned seed = 1);
+
+}  // namespace beckon::pose
