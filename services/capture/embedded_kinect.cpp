@@ -1,0 +1,207 @@
+#include "services/capture/embedded_kinect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beckon::capture {
+namespace {
+
+/// Half of a symmetric kernel, the centre first; `squares` receives the sum of squares of all of
+/// it.
+std::vector<float> GaussianKernel(double sigma_px, double& squares) {
+  const int reach = std::max(1, static_cast<int>(std::ceil(2.5 * sigma_px)));
+  std::vector<float> kernel(reach + 1);
+  double sum = 0;
+  for (int i = 0; i <= reach; ++i) {
+    const double weight = std::exp(-0.5 * i * i / (sigma_px * sigma_px));
+    kernel[i] = static_cast<float>(weight);
+    sum += i == 0 ? weight : 2 * weight;
+  }
+  squares = 0;
+  for (int i = 0; i <= reach; ++i) {
+    kernel[i] /= static_cast<float>(sum);
+    squares += (i == 0 ? 1 : 2) * static_cast<double>(kernel[i]) * kernel[i];
+  }
+  return kernel;
+}
+
+/// Filters along one axis; borders repeat.
+template <typename T>
+void Filter(std::vector<T>& image, int width, int height, bool along_rows,
+            const std::vector<float>& kernel) {
+  const int length = along_rows ? width : height, lines = along_rows ? height : width;
+  const int stride = along_rows ? 1 : width;
+  const int reach = static_cast<int>(kernel.size()) - 1;
+  std::vector<T> line(length + 2 * reach);
+  for (int l = 0; l < lines; ++l) {
+    const size_t start = static_cast<size_t>(l) * (along_rows ? width : 1);
+    for (int i = -reach; i < length + reach; ++i) {
+      line[i + reach] = image[start + static_cast<size_t>(std::clamp(i, 0, length - 1)) * stride];
+    }
+    for (int i = 0; i < length; ++i) {
+      T sum = line[i + reach] * kernel[0];
+      for (int k = 1; k <= reach; ++k)
+        sum += (line[i + reach - k] + line[i + reach + k]) * kernel[k];
+      image[start + static_cast<size_t>(i) * stride] = sum;
+    }
+  }
+}
+
+/// Averages disparity over the neighbours on the same surface: creases round off, outlines stay.
+std::vector<float> SmoothWithinSurfaces(const std::vector<float>& disparity, int width, int height,
+                                        double sigma_px) {
+  constexpr float kSameSurface_px = 0.7f;
+  const int reach = std::max(1, static_cast<int>(std::lround(1.6 * sigma_px)));
+  std::vector<float> weights;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      weights.push_back(
+          static_cast<float>(std::exp(-0.5 * (x * x + y * y) / (sigma_px * sigma_px))));
+    }
+  }
+  std::vector<float> smooth(disparity.size(), 0.0f);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const size_t at = static_cast<size_t>(v) * width + u;
+      if (disparity[at] <= 0) continue;
+      float sum = 0, weight = 0;
+      size_t k = 0;
+      for (int y = v - reach; y <= v + reach; ++y) {
+        for (int x = u - reach; x <= u + reach; ++x, ++k) {
+          if (x < 0 || x >= width || y < 0 || y >= height) continue;
+          const float d = disparity[static_cast<size_t>(y) * width + x];
+          if (d <= 0 || std::abs(d - disparity[at]) > kSameSurface_px) continue;
+          sum += weights[k] * d;
+          weight += weights[k];
+        }
+      }
+      smooth[at] = sum / weight;
+    }
+  }
+  return smooth;
+}
+
+/// Disparity beside a pixel changes by more than a surface does.
+bool AtOutline(const std::vector<float>& disparity, int width, int height, int u, int v) {
+  constexpr float kJump_px = 1.2f;
+  const float d = disparity[static_cast<size_t>(v) * width + u];
+  for (int y = std::max(0, v - 1); y <= std::min(height - 1, v + 1); ++y) {
+    for (int x = std::max(0, u - 1); x <= std::min(width - 1, u + 1); ++x) {
+      if (std::abs(disparity[static_cast<size_t>(y) * width + x] - d) > kJump_px) return true;
+    }
+  }
+  return false;
+}
+
+/// The value below which a unit normal falls with the given probability (logistic approximation).
+float Quantile(double probability) {
+  const double p = std::clamp(probability, 1e-4, 1 - 1e-4);
+  return static_cast<float>(std::log(p / (1 - p)) / 1.702);
+}
+
+/// What each pixel of the depth image looks at, after its outline strayed.
+std::vector<size_t> StrayedPixels(const Window& window, double ragged_px, Random& random) {
+  const int w = window.width, h = window.height;
+  const auto du = SmoothNoise(w, h, 1.5, 1.5, random), dv = SmoothNoise(w, h, 1.5, 1.5, random);
+  std::vector<size_t> source(window.Size());
+  for (int v = 0; v < h; ++v) {
+    for (int u = 0; u < w; ++u) {
+      const size_t at = static_cast<size_t>(v) * w + u;
+      const int x = std::clamp(u + static_cast<int>(std::lround(ragged_px * du[at])), 0, w - 1);
+      const int y = std::clamp(v + static_cast<int>(std::lround(ragged_px * dv[at])), 0, h - 1);
+      source[at] = static_cast<size_t>(y) * w + x;
+    }
+  }
+  return source;
+}
+
+/// Probability that a surface returns too little of the pattern.
+double SurfaceDropout(float incidence, float metal) {
+  const double grazing = std::clamp((0.22 - incidence) / 0.16, 0.0, 1.0);
+  const double mirror = metal * (0.4 + 1.2 * std::abs(incidence - 0.5));
+  return std::max(grazing, std::min(0.9, mirror));
+}
+
+}  // namespace
+
+std::vector<float> SmoothNoise(int width, int height, double sigma_u_px, double sigma_v_px,
+                               Random& random) {
+  std::vector<float> noise(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (float& value : noise) value = random.Normal();
+  double squares_u = 1, squares_v = 1;
+  if (sigma_u_px > 0.3) Filter(noise, width, height, true, GaussianKernel(sigma_u_px, squares_u));
+  if (sigma_v_px > 0.3) Filter(noise, width, height, false, GaussianKernel(sigma_v_px, squares_v));
+  const auto scale = static_cast<float>(1 / std::sqrt(squares_u * squares_v));
+  for (float& value : noise) value *= scale;
+  return noise;
+}
+
+KinectNoise RandomKinectNoise(Random& random) {
+  KinectNoise noise;
+  noise.sigma_px *= random.Uniform(0.7, 1.4);
+  noise.coarse_sigma_px *= random.Uniform(0.6, 1.5);
+  noise.correlation_u_px *= random.Uniform(0.8, 1.3);
+  noise.correlation_v_px *= random.Uniform(0.8, 1.3);
+  noise.smoothing_px = random.Uniform(0.7, 1.8);
+  noise.ragged_px = random.Uniform(0.5, 1.2);
+  noise.edge_dropout = random.Uniform(0.1, 0.45);
+  noise.shadow_dropout = random.Uniform(0.3, 1.0);
+  return noise;
+}
+
+KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, Random& random) {
+  const Window& window = rendering.window;
+  const int w = window.width, h = window.height;
+  const auto source = StrayedPixels(window, noise.ragged_px, random);
+  const auto product = static_cast<float>(noise.baseline_focal_m_px);
+  std::vector<float> disparity(window.Size(), 0.0f);
+  for (size_t i = 0; i < disparity.size(); ++i) {
+    const float depth = rendering.depth_m[source[i]];
+    if (depth > 0) disparity[i] = product / depth;
+  }
+  const auto smooth = SmoothWithinSurfaces(disparity, w, h, noise.smoothing_px);
+  const auto fine = SmoothNoise(w, h, noise.correlation_u_px, noise.correlation_v_px, random);
+  const auto coarse = SmoothNoise(w, h, 8, 4, random);
+  const auto blotches = SmoothNoise(w, h, 1.6, 1.6, random);
+  const float shadow_limit = Quantile(noise.shadow_dropout),
+              edge_limit = Quantile(noise.edge_dropout);
+  KinectDepth out;
+  out.depth_m.assign(window.Size(), 0.0f);
+  out.labels.assign(window.Size(), 0);
+  for (int v = 0; v < h; ++v) {
+    for (int u = 0; u < w; ++u) {
+      const size_t i = static_cast<size_t>(v) * w + u, s = source[i];
+      if (smooth[i] <= 0) continue;
+      if (rendering.unlit[s] && blotches[i] < shadow_limit) continue;
+      const double lost = SurfaceDropout(rendering.incidence[s], rendering.metal[s]);
+      if (lost > 0.02 && blotches[i] < Quantile(lost)) continue;
+      if (blotches[i] < edge_limit && AtOutline(disparity, w, h, u, v)) continue;
+      const double noisy = smooth[i] + noise.sigma_px * fine[i] + noise.coarse_sigma_px * coarse[i];
+      const double stepped = std::round(noisy / noise.step_px) * noise.step_px;
+      if (!(stepped > 4)) continue;  // beyond 10 m
+      out.depth_m[i] = static_cast<float>(std::round(1000 * product / stepped) / 1000);
+      out.labels[i] = rendering.labels[s];
+    }
+  }
+  return out;
+}
+
+std::vector<Rgb> SimulateColour(const Rendering& rendering, Random& random) {
+  const int w = rendering.window.width, h = rendering.window.height;
+  std::vector<Eigen::Vector3f> colour = rendering.colour;
+  double squares = 0;
+  const auto kernel = GaussianKernel(random.Uniform(0.55, 0.85), squares);
+  Filter(colour, w, h, true, kernel);
+  Filter(colour, w, h, false, kernel);
+  const auto sigma = static_cast<float>(random.Uniform(1.0, 3.5));
+  std::vector<Rgb> image(colour.size());
+  for (size_t i = 0; i < image.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      image[i][k] =
+          static_cast<uint8_t>(std::clamp(colour[i][k] + sigma * random.Normal(), 0.0f, 255.0f));
+    }
+  }
+  return image;
+}
+
+}  // namespace beckon::capture

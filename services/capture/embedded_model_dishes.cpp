@@ -1,0 +1,239 @@
+// Crockery, tins and tubs: open or lidded, mostly squat.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "services/capture/embedded_model_makers.h"
+
+namespace beckon::capture {
+namespace {
+
+constexpr double kMm = 1e-3;
+
+double Mm(Random& random, double low, double high) { return random.Uniform(low, high) * kMm; }
+
+/// Outside from the base to the rim, then down the inside: walls of `thickness`.
+std::vector<OutlinePoint> OpenVessel(double base, double rim, double height, double thickness,
+                                     uint32_t outside, uint32_t inside) {
+  return {{0, 2 * kMm, outside},
+          {base * 0.85, 0, outside},
+          {base, 2 * kMm, outside},
+          {rim, height, inside},
+          {rim - thickness, height, inside},
+          {std::max(base - thickness, 5 * kMm), 6 * kMm, inside},
+          {0, 5 * kMm, inside}};
+}
+
+}  // namespace
+
+Model MakeBowl(Random& random) {
+  Model model;
+  const double radius = Mm(random, 55, 105), height = 2 * radius * random.Uniform(0.3, 0.6);
+  const double foot = radius * random.Uniform(0.3, 0.6), thickness = Mm(random, 2.5, 6);
+  const Rgb colour = CrockeryColour(random);
+  const uint32_t outside = model.AddMaterial(CrockeryTexture(random, colour), 0.5f);
+  const uint32_t inside =
+      model.AddMaterial(PlainTexture(random.Chance(0.7) ? colour : CrockeryColour(random)), 0.5f);
+  const double foot_height = random.Chance(0.5) ? Mm(random, 3, 10) : 0;
+  const double roundness = random.Uniform(0.35, 0.75);
+  std::vector<OutlinePoint> outline = {{0, foot_height, outside},
+                                       {foot * 0.9, foot_height, outside},
+                                       {foot * 0.95, 0, outside},
+                                       {foot, 0, outside},
+                                       {foot, foot_height, outside}};
+  constexpr int kSteps = 10;
+  const auto wall = [&](double t) { return foot + (radius - foot) * std::pow(t, roundness); };
+  for (int i = 1; i <= kSteps; ++i) {
+    const double t = static_cast<double>(i) / kSteps;
+    outline.push_back({wall(t), foot_height + (height - foot_height) * t, outside});
+  }
+  outline.back().material = inside;
+  for (int i = kSteps; i >= 1; --i) {
+    const double t = static_cast<double>(i) / kSteps;
+    outline.push_back(
+        {wall(t) - thickness,
+         std::min(height, foot_height + thickness + (height - foot_height - thickness) * t),
+         inside});
+  }
+  outline.push_back({foot * 0.8, foot_height + thickness, inside});
+  outline.push_back({0, foot_height + thickness, inside});
+  model.mesh = Turn(outline);
+  model.upside_down = 0.12;
+  return model;
+}
+
+Model MakeCup(Random& random) {
+  Model model;
+  const double rim = Mm(random, 30, 48), height = 2 * rim * random.Uniform(0.95, 1.9);
+  const double base = rim * random.Uniform(0.58, 0.95), thickness = Mm(random, 1, 3.5);
+  const Rgb colour = CrockeryColour(random);
+  const bool printed = random.Chance(0.35);
+  const uint32_t outside =
+      model.AddMaterial(printed ? PackagingTexture(random, colour, 6283 * rim, 1000 * height)
+                                : CrockeryTexture(random, colour),
+                        0.35f);
+  const uint32_t inside =
+      model.AddMaterial(PlainTexture(random.Chance(0.6) ? colour : Rgb{235, 232, 225}), 0.3f);
+  auto outline = OpenVessel(base, rim, height, thickness, outside, inside);
+  if (random.Chance(0.4)) {  // a rolled lip
+    const double lip = Mm(random, 1, 2.5);
+    outline.insert(outline.begin() + 3,
+                   {{rim, height - 3 * kMm, outside}, {rim + lip, height - 2 * kMm, outside}});
+    outline[5] = {rim + lip, height, inside};
+  }
+  model.mesh = Turn(outline);
+  model.lying = 0.1;
+  model.upside_down = 0.2;
+  return model;
+}
+
+Model MakeMug(Random& random) {
+  Model model;
+  const double radius = Mm(random, 36, 50), height = Mm(random, 80, 120),
+               thickness = Mm(random, 3, 5);
+  const double base =
+      radius * (random.Chance(0.6) ? random.Uniform(0.95, 1) : random.Uniform(0.75, 0.95));
+  const Rgb colour = CrockeryColour(random);
+  const uint32_t outside = model.AddMaterial(CrockeryTexture(random, colour), 0.5f);
+  const uint32_t inside =
+      model.AddMaterial(PlainTexture(random.Chance(0.7) ? colour : CrockeryColour(random)), 0.5f);
+  const uint32_t plain = model.AddMaterial(PlainTexture(colour), 0.5f);
+  model.mesh = Turn(OpenVessel(base, radius, height, thickness, outside, inside));
+  const double reach = Mm(random, 24, 40), low = height * random.Uniform(0.1, 0.28),
+               high = height * random.Uniform(0.75, 0.93);
+  const double squareness = random.Uniform(0.5, 1);
+  std::vector<Eigen::Vector3d> path;
+  constexpr int kSteps = 14;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = std::numbers::pi * i / kSteps;
+    const double out = std::pow(std::sin(angle), squareness);
+    const double up =
+        std::copysign(std::pow(std::abs(std::cos(angle)), squareness), std::cos(angle));
+    const double z = (low + high) / 2 - (high - low) / 2 * up;
+    const double wall = base + (radius - base) * z / height - thickness / 2;
+    path.push_back({wall + reach * out, 0, z});
+  }
+  model.mesh.Append(Sweep(path, {0, 1, 0}, Mm(random, 4.5, 10), Mm(random, 3, 5.5), plain));
+  model.lying = 0.05;
+  model.upside_down = 0.08;
+  return model;
+}
+
+Model MakeTin(Random& random) {
+  Model model;
+  const double kind = random.Unit();
+  const bool rectangular = kind < 0.25;
+  double radius = 0, height = 0, flatness = 1, exponent = 2;
+  if (rectangular) {
+    radius = Mm(random, 42, 115);
+    flatness = random.Uniform(0.55, 1);
+    height = Mm(random, 35, 150);
+    exponent = random.Uniform(5, 14);
+  } else if (kind < 0.5) {  // food tin, squat to tall
+    radius = Mm(random, 31, 52);
+    height = radius * random.Uniform(1.0, 2.9);
+  } else if (kind < 0.75) {  // flat: biscuits, fish, polish
+    radius = Mm(random, 38, 100);
+    height = std::max(18 * kMm, radius * random.Uniform(0.35, 0.9));
+    flatness = random.Chance(0.2) ? random.Uniform(0.6, 0.9) : 1;
+  } else {  // tall with a press-in lid: coffee, cocoa
+    radius = Mm(random, 34, 52);
+    height = radius * random.Uniform(2.2, 3.6);
+  }
+  const bool lidded = rectangular || kind >= 0.5;
+  const uint32_t print = model.AddMaterial(
+      PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f, 0.05f);
+  const Rgb metal_colour = random.Chance(0.5) ? Rgb{190, 190, 195} : PackagingColour(random);
+  const uint32_t metal =
+      model.AddMaterial(PlainTexture(metal_colour), 0.7f, random.Chance(0.5) ? 0.3f : 0.08f);
+  const double bead = Mm(random, 1, 2.2);
+  std::vector<OutlinePoint> outline = {
+      {0, 2 * kMm, metal},       {radius - 2 * kMm, 2 * kMm, metal}, {radius - 2 * kMm, 0, metal},
+      {radius + bead, 0, metal}, {radius + bead, 3 * kMm, metal},    {radius, 3 * kMm, print}};
+  if (lidded) {
+    const double lid = std::min(height * random.Uniform(0.12, 0.4), 30 * kMm);
+    outline.push_back({radius, height - lid, print});
+    outline.push_back({radius + bead, height - lid, print});
+    outline.push_back({radius + bead, height - 2 * kMm, metal});
+    AddCurve(outline, radius - 2 * kMm, height, true, 3, metal);
+    outline.push_back({0, height + (random.Chance(0.4) ? 2 * kMm : 0), metal});
+  } else {
+    if (random.Chance(0.4)) {  // ribs
+      for (double z = height * 0.3; z < height * 0.7; z += 8 * kMm) {
+        outline.push_back({radius, z, print});
+        outline.push_back({radius - 1.2 * kMm, z + 4 * kMm, print});
+      }
+    }
+    outline.push_back({radius, height - 3 * kMm, metal});
+    outline.push_back({radius + bead, height - 3 * kMm, metal});
+    outline.push_back({radius + bead, height, metal});
+    outline.push_back({radius - 2 * kMm, height, metal});
+    outline.push_back({radius - 2 * kMm, height - 3.5 * kMm, metal});
+    outline.push_back({0, height - 3.5 * kMm, metal});
+  }
+  model.mesh = Turn(outline, flatness, exponent);
+  model.lying = height > 1.6 * radius ? 0.12 : 0;
+  model.upside_down = 0.08;
+  return model;
+}
+
+Model MakeTub(Random& random) {
+  Model model;
+  const double radius = Mm(random, 45, 125);
+  const double height = std::min(Mm(random, 40, 140), radius * random.Uniform(0.7, 1.9));
+  const bool round = random.Chance(0.6), lidded = random.Chance(0.67);
+  const double exponent = round ? 2 : random.Uniform(4, 9);
+  const double flatness = round ? 1 : random.Uniform(0.6, 1);
+  const double base = radius * random.Uniform(0.72, 0.95);
+  const Rgb colour = random.Chance(0.5) ? CrockeryColour(random) : PackagingColour(random);
+  const uint32_t outside = model.AddMaterial(
+      random.Chance(0.6) ? PackagingTexture(random, colour, 6283 * radius, 1000 * height)
+                         : PlainTexture(colour),
+      0.3f);
+  const Rgb lid_colour = random.Chance(0.5) ? colour : CrockeryColour(random);
+  const uint32_t lid = model.AddMaterial(PlainTexture(lid_colour), 0.3f);
+  const uint32_t top = model.AddMaterial(
+      random.Chance(0.4) ? PackagingTexture(random, lid_colour, 2000 * radius, 400 * radius)
+                         : PlainTexture(lid_colour),
+      0.3f);
+  const double lip = Mm(random, 1.5, 6), thickness = Mm(random, 1, 2.5);
+  std::vector<OutlinePoint> outline;
+  if (lidded) {
+    const double lid_height = Mm(random, 6, 18), recess = random.Chance(0.5) ? Mm(random, 1, 6) : 0;
+    outline = {{0, 2 * kMm, outside},
+               {base * 0.93, 0, outside},
+               {base, 4 * kMm, outside},
+               {radius - lip, height - lid_height, lid},
+               {radius, height - lid_height, lid},
+               {radius, height - 2 * kMm, lid},
+               {radius - 2 * kMm, height, lid},
+               {radius - 6 * kMm, height, lid},
+               {radius - 9 * kMm, height - recess, top}};
+    const double plateau = recess > 0 || random.Chance(0.6) ? 0 : Mm(random, 2, 8);
+    outline.push_back({radius * 0.75, height - recess, top});
+    outline.push_back({radius * 0.72, height - recess + plateau, top});
+    outline.push_back({0, height - recess + plateau, top});
+  } else {
+    outline = {{0, 2 * kMm, outside},
+               {base * 0.93, 0, outside},
+               {base, 4 * kMm, outside},
+               {radius - lip, height - 4 * kMm, outside},
+               {radius, height - 4 * kMm, outside},
+               {radius, height, lid},
+               {radius - lip - thickness, height, lid},
+               {base - thickness, 5 * kMm, lid},
+               {0, 4 * kMm, lid}};
+  }
+  model.mesh = Turn(outline, flatness, exponent);
+  if (random.Chance(0.15)) {  // two grips
+    for (int side : {-1, 1}) {
+      const double r = radius - 4 * kMm, z = height - 6 * kMm;
+      model.mesh.Append(Sweep({{side * r, 0, z}, {side * (r + Mm(random, 14, 22)), 0, z}},
+                              {0, 1, 0}, 15 * kMm, 3 * kMm, lid));
+    }
+  }
+  model.upside_down = lidded ? 0.08 : 0.3;
+  return model;
+}
+
+}  // namespace beckon::capture

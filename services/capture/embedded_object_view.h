@@ -1,0 +1,27 @@
+// Views of single embedded objects, cut out of their scene, to train a categoriser with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/base/rgbd.h"
+#include "services/capture/embedded_model.h"
+#include "services/capture/embedded_raycaster.h"
+
+namespace beckon::capture {
+
+/// A cut-out around one object. `crop` is in a 640x480 image of `intrinsics`.
+struct ObjectView {
+  Intrinsics intrinsics;
+  Window crop;
+  std::vector<float> depth_m;  // of all that is in the crop
+  std::vector<Rgb> colour;
+  std::vector<uint8_t> mask;  // 255 = the object, as a segmentation would outline it
+  Eigen::Vector3d up_C;       // the table's normal
+  double visible_share = 1;   // of its pixels, the rest being hidden by a neighbour
+};
+
+/// A random view of a model on a table; in about 30 % a neighbour hides part of it.
+ObjectView RenderObjectView(const Model& model, Random& random);
+
+}  // namespace beckon::capture
