@@ -14,49 +14,27 @@ using namespace beckon::perception;
 struct Options {
   AppOptions app;
   OfflineOptions offline;
-  std::string segmentation, model;
-  bool no_categories = false;
-  int threads = 0;  // 0: as configured
+  Overrides overrides;
 };
 
 void AddOptions(CLI::App& app, Options& o) {
   AddAppOptions(app, o.app);
   auto* input = app.add_option("--input", o.offline.input,
-                               "Perceive this cloud (.pcd, .ply) and leave; no bus")
-                    ->type_name("FILE");
-  app.add_option("--segmentation", o.segmentation, "How to segment: reference");
-  app.add_flag("--no-categories", o.no_categories, "Do not say of which category objects are");
-  app.add_option("--model", o.model, "Categories, as beckon-train wrote them")->type_name("FILE");
-  app.add_option("--threads", o.threads, "Objects categorised at a time (default 1)")
+                               "Perceive this cloud (.pcd, .ply) and leave; no bus");
+  app.add_option("--segmentation", o.overrides.segmentation, "How to segment: reference");
+  app.add_flag("--no-categories", o.overrides.no_categories,
+               "Do not say of which category objects are");
+  app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
+  app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));
-  app.add_option("--json", o.offline.json_file, "The result (default: standard output)")
-      ->type_name("FILE")
-      ->needs(input);
-  app.add_option("--labels", o.offline.labels_file, "16-bit PNG of the objects' pixels")
-      ->type_name("FILE")
-      ->needs(input);
-  app.add_option("--picture", o.offline.picture_file, "The image with named objects")
-      ->type_name("FILE")
-      ->needs(input);
+  app.add_option("--json", o.offline.json_file, "The result (default: standard output)");
+  app.add_option("--labels", o.offline.labels_file, "16-bit PNG of the objects' pixels");
+  app.add_option("--picture", o.offline.picture_file, "The image with named objects");
   app.add_option("--repeat", o.offline.repeat, "Compute this often, tell the median times")
-      ->check(CLI::Range(1, 100000))
-      ->needs(input);
-}
-
-Result<PerceptionConfig> Configure(const Options& o) {
-  auto table = LoadConfig(o.app);
-  if (!table) return table.error();
-  auto config = ReadPerceptionConfig(*table);
-  if (!config) return config.error();
-  if (!o.segmentation.empty()) {
-    auto method = ParseSegmentationMethod(o.segmentation);
-    if (!method) return Error{"--" + method.error().message};
-    config->perceiver.segmentation.method = *method;
+      ->check(CLI::Range(1, 100000));
+  for (const char* name : {"--json", "--labels", "--picture", "--repeat"}) {
+    app.get_option(name)->needs(input);
   }
-  if (o.no_categories) config->categories = false;
-  if (!o.model.empty()) config->model = o.model;
-  if (o.threads > 0) config->perceiver.threads = o.threads;
-  return config;
 }
 
 Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
@@ -78,7 +56,9 @@ int main(int argc, char** argv) {
   Options options;
   AddOptions(app, options);
   return RunApp(app, argc, argv, options.app, [&]() -> Status {
-    auto config = Configure(options);
+    auto table = LoadConfig(options.app);
+    if (!table) return table.error();
+    auto config = ReadPerceptionConfig(*table, options.overrides);
     if (!config) return config.error();
     cv::setNumThreads(config->perceiver.threads);
     if (options.app.check_config) return {};

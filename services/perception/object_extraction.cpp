@@ -10,6 +10,7 @@ namespace beckon::perception {
 namespace {
 
 constexpr double kFinestSample_m = 0.002;
+constexpr int kCloses_px = 2;  // gaps of depth that an outline passes over
 
 Eigen::Vector3d PointAt(const RgbdImage& image, uint32_t pixel) {
   return image.Point(static_cast<int>(pixel) % image.width, static_cast<int>(pixel) / image.width);
@@ -42,7 +43,8 @@ double TwiceArea(const std::vector<cv::Point>& polygon) {
   return sum;
 }
 
-/// The largest outer contour of the object's pixels, simplified until it has few enough vertices.
+/// The largest outer contour of the object's pixels, small gaps closed, simplified until it has few
+/// enough vertices.
 std::vector<std::array<int16_t, 2>> Outline(const RgbdImage& image,
                                             const std::vector<uint32_t>& pixels) {
   int left = image.width, right = 0, top = image.height, bottom = 0;
@@ -51,11 +53,14 @@ std::vector<std::array<int16_t, 2>> Outline(const RgbdImage& image,
     left = std::min(left, u), right = std::max(right, u);
     top = std::min(top, v), bottom = std::max(bottom, v);
   }
+  left -= kCloses_px, right += kCloses_px, top -= kCloses_px, bottom += kCloses_px;
   cv::Mat mask = cv::Mat::zeros(bottom - top + 1, right - left + 1, CV_8U);
   for (uint32_t pixel : pixels) {
     mask.at<uint8_t>(static_cast<int>(pixel) / image.width - top,
                      static_cast<int>(pixel) % image.width - left) = 255;
   }
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE,
+                   cv::Mat::ones(2 * kCloses_px + 1, 2 * kCloses_px + 1, CV_8U));
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, {left, top});
   const auto largest = std::max_element(

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "lcmtypes/messages.h"
 #include "services/base/cloud_file.h"
 #include "services/perception/picture.h"
 

@@ -8,21 +8,15 @@
 #include <mutex>
 #include <thread>
 
-#include "services/base/config.h"
 #include "services/base/utime.h"
 
 namespace beckon::perception {
 
-void ReadConfig(ConfigTable& root, PerceiverConfig& config) {
-  ReadConfig(root, config.segmentation);
-  ConfigTable tracker = root.Section("tracker");
-  tracker.Get("max_step_m", config.tracker.max_step_m, 0.001, 1);
-  tracker.Get("min_overlap", config.tracker.min_overlap, 0.01, 1);
-  tracker.Get("forget_after_frames", config.tracker.forget_after_frames, 1, 1'000'000);
-  tracker.Get("recategorise_step_m", config.recategorise_step_m, 0, 1);
-  tracker.Get("recategorise_growth", config.recategorise_growth, 0, 10);
-  root.Get("threads", config.threads, 1, 64);
-}
+Perceiver::Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
+    : Perceiver(
+          config, categoriser == nullptr ? Categorise() : [categoriser](const ObjectView& view) {
+            return categoriser->Categorise(view);
+          }) {}
 
 Perception Perceiver::Perceive(const RgbdImage& image) {
   Perception perception;
@@ -48,7 +42,7 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   perception.steps_ms.emplace_back("objects", perception.segmentation_ms - told_ms);
 
   const Stopwatch categorisation;
-  if (categoriser_ != nullptr) Categorise(image, perception);
+  if (categorise_) CategoriseAll(image, perception);
   perception.categorisation_ms = categorisation.Milliseconds();
   return perception;
 }
@@ -60,7 +54,7 @@ bool Perceiver::SameView(const ExtractedObject& shape, const Remembered& remembe
          std::abs(now - before) <= config_.recategorise_growth * before;
 }
 
-void Perceiver::Categorise(const RgbdImage& image, Perception& perception) {
+void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
   std::vector<PerceivedObject*> unseen;
   for (auto& object : perception.objects) {
     const auto known = remembered_.find(object.id);
@@ -77,8 +71,8 @@ void Perceiver::Categorise(const RgbdImage& image, Perception& perception) {
   auto work = [&] {
     try {
       for (size_t i; (i = next++) < unseen.size();) {
-        unseen[i]->category = categoriser_->Categorise(
-            {image, unseen[i]->shape.pixels, perception.segmentation.table_C});
+        unseen[i]->category =
+            categorise_({image, unseen[i]->shape.pixels, perception.segmentation.table_C});
       }
     } catch (...) {  // must not leave a thread
       std::lock_guard lock(failure_mutex);

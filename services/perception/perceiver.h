@@ -1,6 +1,7 @@
 // From an image to the objects on the table: segmentation, measurement, identity, category.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -21,9 +22,6 @@ struct PerceiverConfig {
   int threads = 1;                   // objects are categorised by so many at a time
 };
 
-/// Reads [segmentation], [tracker] and `threads` out of `root`.
-void ReadConfig(ConfigTable& root, PerceiverConfig& config);
-
 struct PerceivedObject {
   int id = 0;  // >= 1
   ExtractedObject shape;
@@ -40,12 +38,17 @@ struct Perception {
   std::vector<std::pair<std::string, double>> steps_ms;  // of segmentation
 };
 
+/// Says of which category an object is; called by several threads at a time where so configured.
+using Categorise = std::function<Categorisation(const ObjectView&)>;
+
 /// Holds what is known of the objects from frame to frame.
 class Perceiver {
  public:
-  /// `categoriser` may be null (objects stay uncategorised); it must outlive this.
-  Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
-      : config_(config), categoriser_(categoriser), tracker_(config.tracker) {}
+  /// `categorise` may be empty: objects stay uncategorised.
+  Perceiver(const PerceiverConfig& config, Categorise categorise)
+      : config_(config), categorise_(std::move(categorise)), tracker_(config.tracker) {}
+  /// `categoriser` may be null; it must outlive this.
+  Perceiver(const PerceiverConfig& config, const Categoriser* categoriser);
 
   Perception Perceive(const RgbdImage& image);
 
@@ -57,11 +60,11 @@ class Perceiver {
     Categorisation category;
   };
 
-  void Categorise(const RgbdImage& image, Perception& perception);
+  void CategoriseAll(const RgbdImage& image, Perception& perception);
   bool SameView(const ExtractedObject& shape, const Remembered& remembered) const;
 
   PerceiverConfig config_;
-  const Categoriser* categoriser_;
+  Categorise categorise_;
   Tracker tracker_;
   std::map<int, Remembered> remembered_;
 };

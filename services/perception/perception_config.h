@@ -16,8 +16,16 @@ struct PerceptionConfig {
   double ask_at_or_below = -1;  // confidence 0..1; negative: as the model has it
 };
 
+/// What the command line says over the file.
+struct Overrides {
+  std::string segmentation;  // empty: as configured
+  std::string model;         // the same
+  bool no_categories = false;
+  int threads = 0;  // 0: as configured
+};
+
 /// Reads the whole file; fails on what is wrong or unknown in it.
-Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root);
+Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides& overrides = {});
 
 /// The configured categoriser; nothing where categories are off.
 Result<std::optional<Categoriser>> LoadCategoriser(const PerceptionConfig& config);

@@ -10,6 +10,7 @@ namespace beckon::perception {
 namespace {
 
 const cv::Scalar kTableColour(255, 255, 255);
+constexpr double kTextScale = 0.42;
 
 /// Colours that stay apart for neighbouring ids (multiples of the golden angle around the hue
 /// circle).
@@ -58,23 +59,34 @@ void DrawTable(const RgbdImage& image, const std::vector<Eigen::Vector3d>& hull_
   if (!polygon.empty()) cv::polylines(canvas, polygon, true, kTableColour, 1, cv::LINE_AA);
 }
 
-void DrawObject(const PerceivedObject& object, cv::Mat& canvas) {
+void DrawOutline(const PerceivedObject& object, cv::Mat& canvas) {
+  std::vector<cv::Point> polygon;
+  for (const auto& [u, v] : object.shape.outline_px) polygon.emplace_back(u, v);
+  cv::polylines(canvas, polygon, true, ColourOf(object.id), 2, cv::LINE_AA);
+}
+
+/// Above the object, or as far down from there as it takes not to cover another caption.
+void DrawCaption(const PerceivedObject& object, std::vector<cv::Rect>& taken, cv::Mat& canvas) {
   std::vector<cv::Point> polygon;
   for (const auto& [u, v] : object.shape.outline_px) polygon.emplace_back(u, v);
   if (polygon.empty()) return;
-  const cv::Scalar colour = ColourOf(object.id);
-  cv::polylines(canvas, polygon, true, colour, 2, cv::LINE_AA);
-
   const std::string caption = Caption(object);
   const cv::Rect box = cv::boundingRect(polygon);
   int below = 0;
-  const cv::Size size = cv::getTextSize(caption, cv::FONT_HERSHEY_SIMPLEX, 0.42, 1, &below);
-  const int x = std::clamp(box.x + (box.width - size.width) / 2, 0,
-                           std::max(0, canvas.cols - size.width - 4));
-  const int y = std::clamp(box.y - 5, size.height + 2, std::max(size.height + 2, canvas.rows - 4));
-  cv::rectangle(canvas, {x - 2, y - size.height - 3}, {x + size.width + 2, y + below}, {0, 0, 0},
-                cv::FILLED);
-  cv::putText(canvas, caption, {x, y - 1}, cv::FONT_HERSHEY_SIMPLEX, 0.42, colour, 1, cv::LINE_AA);
+  const cv::Size text = cv::getTextSize(caption, cv::FONT_HERSHEY_SIMPLEX, kTextScale, 1, &below);
+  cv::Rect frame(0, 0, text.width + 4, text.height + below + 4);
+  frame.x =
+      std::clamp(box.x + (box.width - frame.width) / 2, 0, std::max(0, canvas.cols - frame.width));
+  frame.y = std::clamp(box.y - frame.height - 2, 0, std::max(0, canvas.rows - frame.height));
+  for (size_t i = 0; i < taken.size(); ++i) {
+    if ((taken[i] & frame).empty()) continue;
+    frame.y = taken[i].br().y;
+    i = static_cast<size_t>(-1);  // look at all of them again
+  }
+  taken.push_back(frame);
+  cv::rectangle(canvas, frame, {0, 0, 0}, cv::FILLED);
+  cv::putText(canvas, caption, {frame.x + 2, frame.y + 2 + text.height}, cv::FONT_HERSHEY_SIMPLEX,
+              kTextScale, ColourOf(object.id), 1, cv::LINE_AA);
 }
 
 Status Write(const std::string& path, const cv::Mat& picture) {
@@ -93,7 +105,9 @@ Status Write(const std::string& path, const cv::Mat& picture) {
 Status WritePicture(const std::string& path, const RgbdImage& image, const Perception& perception) {
   cv::Mat canvas = Background(image);
   DrawTable(image, perception.segmentation.hull_C, canvas);
-  for (const auto& object : perception.objects) DrawObject(object, canvas);
+  for (const auto& object : perception.objects) DrawOutline(object, canvas);
+  std::vector<cv::Rect> taken;
+  for (const auto& object : perception.objects) DrawCaption(object, taken, canvas);
   return Write(path, canvas);
 }
 

@@ -11,10 +11,6 @@
 #include "services/base/geometry.h"
 #include "services/base/rgbd.h"
 
-namespace beckon {
-class ConfigTable;
-}
-
 namespace beckon::perception {
 
 enum class SegmentationMethod { kReference };
@@ -45,9 +41,6 @@ struct SegmentationConfig {
   int cluster_min_points = 150;       // voxels, fewer are no object
   int max_objects = 64;               // the largest are kept
 };
-
-/// Reads [segmentation] out of `root`; errors are left for ConfigTable::Finish.
-void ReadConfig(ConfigTable& root, SegmentationConfig& config);
 
 /// One image segmented. Objects are numbered from 1, the one with most pixels first.
 struct Segmentation {

@@ -6,7 +6,7 @@
 #include <pcl/segmentation/extract_clusters.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <sstream>
 
 #include "services/perception/table_outline.h"
 #include "services/perception/table_search.h"
@@ -87,11 +87,10 @@ std::vector<Eigen::Vector2d> Outline(std::span<const Eigen::Vector3f> points_C,
 }
 
 std::string TooFewPoints(const Segmentation& result, const SegmentationConfig& config) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "only %d pixels have depth between %.2f and %.2f m, too few for a table",
-                result.n_points, config.min_range_m, config.max_range_m);
-  return text;
+  std::ostringstream text;
+  text << "only " << result.n_points << " pixels have depth between " << config.min_range_m
+       << " and " << config.max_range_m << " m, too few for a table";
+  return text.str();
 }
 
 }  // namespace

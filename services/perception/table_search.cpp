@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+#include <sstream>
 
 namespace beckon::perception {
 namespace {
@@ -120,17 +120,17 @@ std::optional<FoundPlane> FindTableOver(const FoundPlane& floor, const PlaneFind
 }
 
 std::string NoTable(int walls, double last_tilt_deg, const SegmentationConfig& config) {
-  char text[200];
+  std::ostringstream text;
   if (walls == 0) {
-    std::snprintf(text, sizeof text, "no plane with at least %d points (voxels of %g mm)",
-                  config.plane_min_points, config.voxel_m * 1000);
+    text << "no plane with at least " << config.plane_min_points << " points (voxels of "
+         << config.voxel_m * 1000 << " mm)";
   } else {
-    std::snprintf(text, sizeof text,
-                  "%d plane%s, but none that can be a table: tilted %.0f degrees from up in the "
-                  "image, at most %.0f allowed",
-                  walls, walls == 1 ? "" : "s", last_tilt_deg, config.table_max_tilt_deg);
+    text << walls << (walls == 1 ? " plane" : " planes")
+         << ", but none that can be a table: the last "
+         << "is tilted " << std::lround(last_tilt_deg) << " degrees from up in the image, at most "
+         << config.table_max_tilt_deg << " are allowed";
   }
-  return text;
+  return text.str();
 }
 
 }  // namespace
