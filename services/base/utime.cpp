@@ -19,6 +19,8 @@ Utime SystemClock::Now() const {
       .count();
 }
 
+Utime SteadyClock::Now() const { return MonotonicNanoseconds() / 1000; }
+
 Stopwatch::Stopwatch() : start_ns_(MonotonicNanoseconds()) {}
 
 double Stopwatch::Milliseconds() const {

@@ -23,6 +23,12 @@ class SystemClock : public Clock {
   Utime Now() const override;
 };
 
+/// Counts up from some fixed moment, whatever happens to the machine's time: for pacing, not for stamps.
+class SteadyClock : public Clock {
+ public:
+  Utime Now() const override;
+};
+
 /// A clock that stands where it was put.
 class ManualClock : public Clock {
  public:

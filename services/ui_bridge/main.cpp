@@ -6,7 +6,6 @@
 #include "services/base/app.h"
 #include "services/base/status_reporter.h"
 #include "services/ui_bridge/service.h"
-#include "services/ui_bridge/steady_clock.h"
 
 namespace {
 
@@ -32,7 +31,7 @@ Status Run(Options& options, std::vector<std::unique_ptr<ui_bridge::FrontEndFact
   if (!bus) return bus.error();
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   const SystemClock clock;
-  const ui_bridge::SteadyClock steady;
+  const SteadyClock steady;
   ui_bridge::Service service(options.service, **bus, loop, clock, steady);
   for (const auto& name : options.front_ends) {
     const auto factory =

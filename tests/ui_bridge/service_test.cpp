@@ -7,7 +7,6 @@
 
 #include <set>
 
-#include "services/ui_bridge/steady_clock.h"
 #include "services/ui_bridge/uuid.h"
 
 namespace beckon::ui_bridge {

@@ -1,0 +1,40 @@
+// What the doctor makes of what it finds.
+#include "tools/beckon/doctor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace beckon::tool {
+namespace {
+
+using Grade = Finding::Grade;
+using ::testing::HasSubstr;
+
+TEST(Doctor, WarnsOfMessagesThatLeaveTheMachine) {
+  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=0").grade, Grade::kOk);
+  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=1").grade, Grade::kWarn);
+  EXPECT_EQ(CheckUrl("memq://").grade, Grade::kOk);
+}
+
+TEST(Doctor, KnowsWhichBuffersLoseFrames) {
+  const std::string good = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152";
+  EXPECT_EQ(CheckSocketBuffers(good, 4'194'304).grade, Grade::kOk);
+  const auto small = CheckSocketBuffers(good, 212'992);
+  EXPECT_EQ(small.grade, Grade::kWarn);
+  EXPECT_THAT(small.remedy, HasSubstr("sysctl -w net.core.rmem_max=2097152"));
+  EXPECT_EQ(CheckSocketBuffers("udpm://239.255.76.67:7667?ttl=0", 4'194'304).grade, Grade::kFail);
+}
+
+TEST(Doctor, FailsOnlyWhereSomethingFailed) {
+  std::vector<Finding> findings{{Grade::kOk, "a", "fine", ""},
+                                {Grade::kWarn, "b", "so so", "do this"}};
+  EXPECT_EQ(ExitCode(findings), 0);
+  findings.push_back({Grade::kFail, "c", "bad", "do that"});
+  EXPECT_EQ(ExitCode(findings), 1);
+  const auto text = Render(findings);
+  EXPECT_THAT(text, HasSubstr("FAIL  c: bad\n      -> do that"));
+  EXPECT_THAT(text, HasSubstr("3 checks, 1 warnings, 1 failures"));
+}
+
+}  // namespace
+}  // namespace beckon::tool

@@ -1,0 +1,56 @@
+// Ground truth files, right and wrong.
+#include "services/base/scene_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace beckon {
+namespace {
+
+Result<SceneTruth> Read(const std::string& json) {
+  const std::string path = ::testing::TempDir() + "scene_truth_test.json";
+  std::ofstream(path) << json;
+  return ReadSceneTruth(path);
+}
+
+TEST(SceneTruth, ReadsObjectsAndLeavesOtherKeysAlone) {
+  const auto truth =
+      Read(R"({"seed": 1, "objects": [{"category": "Box", "centroid_C": [1, 2.5, 3], "id": 4}]})");
+  ASSERT_TRUE(truth);
+  EXPECT_TRUE(truth->known);
+  ASSERT_EQ(truth->objects.size(), 1u);
+  EXPECT_EQ(truth->objects[0].category, "Box");
+  EXPECT_EQ(truth->objects[0].centroid_C, Eigen::Vector3d(1, 2.5, 3));
+}
+
+TEST(SceneTruth, NullMeansThatNobodyKnows) {
+  const auto truth = Read(R"({"objects": null})");
+  ASSERT_TRUE(truth);
+  EXPECT_FALSE(truth->known);
+}
+
+TEST(SceneTruth, RefusesWhatIsNoTruth) {
+  for (const char* json : {"", "[]", "{}", "{", R"({"objects": 3})", R"({"objects": [3]})",
+                           R"({"objects": [{"category": "Box"}]})",
+                           R"({"objects": [{"category": "Box", "centroid_C": [1, 2]}]})",
+                           R"({"objects": [{"category": "Box", "centroid_C": [1, 2, "3"]}]})",
+                           R"({"objects": [{"category": "Box", "centroid_C": [1, 2, 1e999]}]})",
+                           R"({"objects": [{"category": 1, "centroid_C": [1, 2, 3]}]})"}) {
+    EXPECT_FALSE(Read(json)) << json;
+  }
+  EXPECT_FALSE(ReadSceneTruth("/nowhere/truth.json"));
+}
+
+TEST(SceneTruth, FindsTheNearestWithinReachAndTheFirstInstance) {
+  SceneTruth truth{true, {{"Box", {0, 0, 2}}, {"Box", {0.1, 0, 1}}, {"Cup", {0, 0, 0.5}}}};
+  EXPECT_EQ(truth.Nearest({0, 0, 1.97}, 0.06), 0u);
+  EXPECT_FALSE(truth.Nearest({0, 0, 1.5}, 0.06));
+  Pose X_WC = Pose::Identity();  // W's y along the camera's z
+  X_WC.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  EXPECT_EQ(truth.FirstInstance("Box", X_WC), 1u);
+  EXPECT_FALSE(truth.FirstInstance("Tub", X_WC));
+}
+
+}  // namespace
+}  // namespace beckon

@@ -1,0 +1,124 @@
+// beckon: what a person does with the whole system: try it, check a machine, run it, record,
+// replay.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "services/base/app.h"
+#include "tools/beckon/demo.h"
+#include "tools/beckon/doctor.h"
+#include "tools/beckon/fleet.h"
+#include "tools/beckon/log_tools.h"
+#include "tools/beckon/profile.h"
+
+namespace beckon::tool {
+namespace {
+
+void AddDemo(CLI::App& app, DemoOptions& o) {
+  auto* demo = app.add_subcommand(
+      "demo",
+      "Five services on a private bus, from an image to a confirmed task. On a terminal you "
+      "answer; "
+      "--headless a simulated user does, one JSON line a session comes out, and the exit code is 0 "
+      "only if every task was right.");
+  demo->add_option("--input", o.input,
+                   "PCD, PLY or folder to look at (default: the embedded scene)")
+      ->type_name("FILE");
+  demo->add_option("--want", o.want,
+                   "What the simulated user wants, e.g. Open:Carton, the nearest one "
+                   "(default: something the scene offers)")
+      ->type_name("ACTION:CATEGORY");
+  demo->add_option("--sessions", o.sessions,
+                   "Conversations, one after the other (default: 1 simulated, "
+                   "without end else)")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  demo->add_option("--front-end", o.front_end,
+                   "console or simulated (default: console on a terminal)")
+      ->check(CLI::IsMember({"console", "simulated"}))
+      ->type_name("NAME");
+  demo->add_flag("--headless", o.headless, "No person: the simulated front end answers");
+  demo->add_option("--db", o.db, "What is learnt (default: a temporary file)")->type_name("FILE");
+  demo->add_option("--port", o.port, "Of the page, which is not part of this version")
+      ->check(CLI::Range(1, 65535));
+  demo->add_option("--record", o.record, "Log all messages with lcm-logger")->type_name("LOG");
+  demo->add_option("--seed", o.seed, "Of the embedded scene and of the simulated user")
+      ->check(CLI::NonNegativeNumber);
+  demo->add_option("--policy", o.policy, "How questions are chosen, e.g. adaptive, oain")
+      ->type_name("NAME");
+  demo->add_option("--user", o.user, "Whose habits are learnt (default: demo)")->type_name("NAME");
+  demo->add_option("--think", o.think_s, "Seconds the simulated user takes for an answer")
+      ->check(CLI::Range(0.0, 600.0));
+  demo->add_option("--flip", o.flip, "Chance that it answers wrongly")->check(CLI::Range(0.0, 1.0));
+  demo->add_option("--timeout", o.timeout_s,
+                   "Seconds without anything new before it gives up (default: 30)")
+      ->check(CLI::Range(1.0, 3600.0));
+  demo->add_option("--logs", o.logs, "Folder for the services' logs (default: temporary)")
+      ->type_name("DIR");
+}
+
+struct Options {
+  AppOptions app;
+  DemoOptions demo;
+  std::string db, profile, out, log;
+  double speed = 1;
+  bool hash = false;
+};
+
+void AddOthers(CLI::App& app, Options& o) {
+  app.add_subcommand("doctor",
+                     "Whether this machine has what Beckon needs, and what to do where it has not")
+      ->add_option("--db", o.db, "Look at this history too")
+      ->type_name("FILE");
+  app.add_subcommand("run", "Keeps a profile's processes running until Ctrl-C")
+      ->add_option("PROFILE", o.profile, "TOML file, or a profile that ships: one-machine")
+      ->required();
+  app.add_subcommand("record", "Writes all messages to a log (lcm-logger)")
+      ->add_option("--out", o.out, "The log; must not exist")
+      ->type_name("LOG")
+      ->required();
+  auto* replay = app.add_subcommand("replay", "Publishes a log again (lcm-logplayer)");
+  replay->add_option("LOG", o.log, "Of 'beckon record' or lcm-logger")->required();
+  replay->add_option("--speed", o.speed, "Times its own pace")->check(CLI::Range(0.01, 10.0));
+  replay->add_flag("--hash", o.hash, "Lock step with hashes: not part of this version");
+  app.add_subcommand("top", "Live view of all services: not part of this version");
+}
+
+Result<int> Run(const CLI::App& app, Options& o) {
+  if (app.got_subcommand("demo")) return RunDemo(o.demo);
+  if (app.got_subcommand("run")) return RunProfile(o.profile, o.app.lcm_url);
+  if (app.got_subcommand("doctor")) {
+    const auto findings = Examine({.lcm_url = o.app.lcm_url, .db = o.db, .bin_dir = OwnBinDir()});
+    std::fputs(Render(findings).c_str(), stdout);
+    return ExitCode(findings);
+  }
+  if (app.got_subcommand("record")) return Record(o.out, o.app.lcm_url).error();
+  if (app.got_subcommand("top"))
+    return Error{"top: not part of this version; lcm-spy shows BECKON_STATUS"};
+  if (o.hash)
+    return Error{"replay --hash: not part of this version; 'beckon replay LOG' publishes the log"};
+  return Replay(o.log, o.app.lcm_url, o.speed).error();
+}
+
+}  // namespace
+
+int RunBeckon(int argc, char** argv) {
+  CLI::App app("Asks as few questions as possible until a robot arm knows what its user wants.",
+               "beckon");
+  Options options;
+  AddAppOptions(app, options.app);
+  app.require_subcommand(1);
+  app.fallthrough();
+  AddDemo(app, options.demo);
+  AddOthers(app, options);
+  int code = 0;
+  const int status = RunApp(app, argc, argv, options.app, [&]() -> Status {
+    auto result = Run(app, options);
+    if (!result) return result.error();
+    code = *result;
+    return {};
+  });
+  return status != 0 ? status : code;
+}
+
+}  // namespace beckon::tool

@@ -1,0 +1,247 @@
+#include "tools/beckon/demo.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "services/base/app.h"
+#include "services/base/run_loop.h"
+#include "tools/beckon/bus_watch.h"
+#include "tools/beckon/catalogue.h"
+#include "tools/beckon/fleet.h"
+#include "tools/beckon/private_bus.h"
+#include "tools/beckon/run_folder.h"
+#include "tools/beckon/session_report.h"
+#include "tools/beckon/supervisor.h"
+
+namespace beckon::tool {
+namespace {
+
+constexpr Utime kLook_us = 50'000;
+constexpr Utime kLastTask_us = 2 * kSecond;
+constexpr int kTruthPatience_ms = 60'000;
+constexpr int kHopeless = 6;      // deaths in a row
+constexpr int kBadInputExit = 2;  // of every Beckon program
+
+/// One run; ends the loop when it knows the outcome.
+class Demo {
+ public:
+  Demo(DemoOptions options, FleetConfig fleet, Catalogue catalogue, RunLoop& loop, Bus& bus)
+      : options_(std::move(options)),
+        fleet_(std::move(fleet)),
+        catalogue_(std::move(catalogue)),
+        loop_(loop),
+        supervisor_(loop, steady_, [this](const Death& death) { OnDeath(death); }),
+        watch_(bus, clock_, steady_, options_.user,
+               [this](const SessionRecord& record) { OnEnd(record); }) {}
+
+  /// An Error where input was bad, else the exit code.
+  Result<int> Run() {
+    if (auto started = StartServices(); !started) return started.error();
+    news_ = steady_.Now();
+    loop_.Every(kLook_us, [this] { Look(); });
+    loop_.Run();
+    supervisor_.Stop("logger", SIGINT, 2000);  // it writes what it holds
+    supervisor_.Stop();
+    if (bad_input_) return *bad_input_;
+    if (!failure_.empty()) {
+      std::fprintf(stderr, "beckon demo: %s (logs: %s)\n", failure_.c_str(),
+                   fleet_.run_dir.c_str());
+    }
+    return failure_.empty() ? 0 : 1;
+  }
+
+ private:
+  bool simulated() const { return options_.front_end == "simulated"; }
+
+  Status StartServices() {
+    if (!options_.record.empty()) {
+      if (auto s =
+              supervisor_.Start(LoggerSpec(fleet_, options_.record), Supervisor::Restart::kNever);
+          !s)
+        return s;
+    }
+    for (const auto& spec : {PerceptionSpec(fleet_), PoseSpec(fleet_), IntentionSpec(fleet_)}) {
+      if (auto started = supervisor_.Start(spec); !started) return started;
+    }
+    if (simulated()) {
+      if (auto known = FindOutWhatToWant(); !known) return known;
+    }
+    if (auto started = supervisor_.Start(CaptureSpec(fleet_)); !started) return started;
+    return supervisor_.Start(UiBridgeSpec(fleet_, options_.front_end, want_ ? want_->Text() : "",
+                                          /*terminal=*/!simulated()),
+                             Supervisor::Restart::kOnFailure);
+  }
+
+  /// Capture tells what really stands on the table, where anybody knows.
+  Status FindOutWhatToWant() {
+    const auto spec = TruthSpec(fleet_);
+    auto capture = ChildProcess::Start(spec);
+    if (!capture) return capture.error();
+    const auto exit = capture->Wait(kTruthPatience_ms);
+    if (!exit || exit->code != 0 || exit->signal != 0) return Error{LastLine(spec.log_file)};
+    auto truth = ReadSceneTruth(fleet_.TruthFile());
+    if (!truth) return truth.error();
+    truth_ = *std::move(truth);
+    if (options_.want.empty() && !truth_.known) {
+      return Error{"--input " + options_.input +
+                   ": comes without ground truth; say what is wanted by --want ACTION:CATEGORY"};
+    }
+    auto want =
+        options_.want.empty() ? catalogue_.Suggest(truth_) : catalogue_.ParseWant(options_.want);
+    if (!want) return want.error();
+    want_ = *std::move(want);
+    return {};
+  }
+
+  void Look() {
+    const bool table = watch_.saw_table();
+    if (watch_.observer().last_news() > news_) news_ = watch_.observer().last_news();
+    if (table && !had_table_) news_ = steady_.Now();
+    had_table_ = table;
+    const double silent_s = static_cast<double>(steady_.Now() - news_) / kSecond;
+    if (simulated() && silent_s > options_.timeout_s) Fail(Missing());
+  }
+
+  std::string Missing() const {
+    const std::string after =
+        " after " + std::to_string(static_cast<int>(options_.timeout_s)) + " s: ";
+    if (!watch_.saw_scene())
+      return "no scene came" + after + watch_.Says("perception") + "; " + watch_.Says("capture");
+    if (!watch_.saw_table()) return "perception saw no table" + after + watch_.Says("perception");
+    if (watch_.observer().questions() == 0) {
+      return "no question came" + after + watch_.Says("intention") + "; " +
+             watch_.Says("ui_bridge");
+    }
+    return "the conversation stands still" + after + watch_.Says("intention") + "; " +
+           watch_.Says("ui_bridge");
+  }
+
+  void OnEnd(const SessionRecord& record) {
+    if (simulated() || options_.headless) {
+      std::printf("%s\n", ReportLine(record, want_ ? &*want_ : nullptr, truth_).c_str());
+      std::fflush(stdout);
+    }
+    if (want_ && !IsCorrect(record, *want_, truth_) && failure_.empty()) {
+      failure_ = Complaint(record, *want_);
+    }
+    // The front end leaves by itself after its last session; a moment for it, then we end.
+    if (fleet_.sessions > 0 && watch_.observer().ended() >= fleet_.sessions) {
+      loop_.After(kSecond, [this] { loop_.Stop(); });
+    }
+  }
+
+  void OnDeath(const Death& death) {
+    if (death.name == "ui_bridge" && death.exit.code == 0 && death.exit.signal == 0) {
+      if (!simulated() || watch_.observer().ended() >= fleet_.sessions) return loop_.Stop();
+      // A last TASK may be on its way.
+      loop_.After(kLastTask_us, [this, why = death.last_line] {
+        Fail("the simulated user left after " + std::to_string(watch_.observer().ended()) + " of " +
+             std::to_string(fleet_.sessions) + " sessions: " + why);
+      });
+      return;
+    }
+    // A program that refuses its input at the start will refuse it for ever.
+    if (death.exit.code == kBadInputExit) return BadInput(death.last_line);
+    if (death.name == "logger") return Fail("lcm-logger ended: " + death.last_line);
+    if (death.in_a_row >= kHopeless) {
+      return Fail(death.name + " keeps dying (" + death.exit.Text() + "): " + death.last_line);
+    }
+    spdlog::warn("{} died ({}): {}", death.name, death.exit.Text(), death.last_line);
+  }
+
+  void Fail(const std::string& why) {
+    if (failure_.empty()) failure_ = why;
+    loop_.Stop();
+  }
+
+  void BadInput(const std::string& why) {
+    if (!bad_input_) bad_input_ = Error{why};
+    loop_.Stop();
+  }
+
+  const DemoOptions options_;
+  const FleetConfig fleet_;
+  const Catalogue catalogue_;
+  RunLoop& loop_;
+  const SystemClock clock_;
+  const SteadyClock steady_;
+  Supervisor supervisor_;
+  BusWatch watch_;
+  bool had_table_ = false;
+  Utime news_ = 0;
+  SceneTruth truth_;
+  std::optional<Want> want_;
+  std::string failure_;
+  std::optional<Error> bad_input_;
+};
+
+/// Fills in what was left open and refuses what cannot be.
+Status Complete(DemoOptions& options, const Catalogue& catalogue) {
+  namespace fs = std::filesystem;
+  const bool terminal = isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
+  if (!terminal && options.front_end.empty()) options.headless = true;
+  if (options.front_end.empty()) options.front_end = options.headless ? "simulated" : "console";
+  if (options.headless && options.front_end != "simulated") {
+    return Error{"--headless answers by the simulated front end; --front-end " + options.front_end +
+                 " needs a person"};
+  }
+  if (options.sessions == 0 && options.front_end == "simulated") options.sessions = 1;
+  if (!options.want.empty()) {
+    if (auto want = catalogue.ParseWant(options.want); !want) return want.error();
+  }
+  if (!options.input.empty() && !fs::exists(options.input)) {
+    return Error{"--input " + options.input + ": there is no such file or folder"};
+  }
+  if (!options.record.empty() && fs::exists(options.record)) {
+    return Error{"--record " + options.record +
+                 ": exists already; choose another name or remove it"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<int> RunDemo(const DemoOptions& given) {
+  auto catalogue = Catalogue::Load(SharedFile("affordances.toml"));
+  if (!catalogue) return catalogue.error();
+  DemoOptions options = given;
+  if (auto complete = Complete(options, *catalogue); !complete) return complete.error();
+  if (options.port != 0) {
+    spdlog::warn(
+        "--port {}: the page is not part of this version; questions are asked by the {} front end",
+        options.port, options.front_end);
+  }
+  auto folder = RunFolder::Make(options.logs, "beckon-demo");
+  if (!folder) return folder.error();
+  const PrivateBus network = EnterPrivateBus();
+  if (!network.note.empty()) spdlog::warn("{}", network.note);
+
+  RunLoop loop(/*handle_signals=*/true);
+  auto bus = Bus::Open(network.lcm_url);
+  if (!bus) return bus.error();
+  loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
+  FleetConfig fleet;
+  fleet.bin_dir = OwnBinDir();
+  fleet.run_dir = folder->path();
+  fleet.lcm_url = network.lcm_url;
+  fleet.input = options.input;
+  fleet.seed = options.seed;
+  fleet.db = options.db.empty() ? folder->path() + "/history.db" : options.db;
+  fleet.policy = options.policy;
+  fleet.user = options.user;
+  fleet.sessions = options.sessions;
+  fleet.think_s = options.think_s;
+  fleet.flip = options.flip;
+
+  Demo demo(options, fleet, *std::move(catalogue), loop, **bus);
+  auto code = demo.Run();
+  if (code && *code != 0) folder->Keep();
+  return code;
+}
+
+}  // namespace beckon::tool

@@ -1,0 +1,34 @@
+// `beckon demo`: the five services on a private bus, from an image to a confirmed task.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/base/result.h"
+
+namespace beckon::tool {
+
+struct DemoOptions {
+  std::string input;  // file for capture; empty = the embedded scene
+  std::string want;   // ACTION:CATEGORY of the simulated user; empty = something the scene offers
+  int sessions = 0;   // 0 = one where simulated, else until the user leaves
+  std::string front_end;  // empty = console on a terminal, simulated else
+  bool headless = false;
+  std::string db;  // empty = a temporary one
+  int port = 0;
+  std::string record;  // log to write; empty = none
+  int seed = 1;
+  std::string policy;
+  std::string user = "demo";
+  double think_s = 0;     // of the simulated user, before each answer
+  double flip = 0;        // chance that it answers wrongly
+  double timeout_s = 30;  // without anything new
+  std::string
+      logs;  // folder for the services' logs; empty = a temporary one, kept where it went wrong
+};
+
+/// Runs it. 0: done, and every task of a simulated user was right; 1: not so (said in one line on
+/// standard error). Bad input is an Error.
+Result<int> RunDemo(const DemoOptions& options);
+
+}  // namespace beckon::tool

@@ -1,0 +1,34 @@
+// `beckon doctor`: whether this machine has what Beckon needs, and what to do where it has not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace beckon::tool {
+
+struct Finding {
+  enum class Grade { kOk, kWarn, kFail };
+  Grade grade = Grade::kOk;
+  std::string what;    // e.g. "socket buffers"
+  std::string detail;  // what was found
+  std::string remedy;  // what to do; empty where it is ok
+};
+
+struct DoctorOptions {
+  std::string lcm_url;
+  std::string db;       // of intention; empty = where it is by default
+  std::string bin_dir;  // of the services
+};
+
+/// All checks, in the order they are read. Takes about a second.
+std::vector<Finding> Examine(const DoctorOptions& options);
+
+Finding CheckUrl(const std::string& lcm_url);
+Finding CheckSocketBuffers(const std::string& lcm_url, long rmem_max);
+
+/// A line for each, and how many were bad.
+std::string Render(const std::vector<Finding>& findings);
+/// 1 where anything failed.
+int ExitCode(const std::vector<Finding>& findings);
+
+}  // namespace beckon::tool
