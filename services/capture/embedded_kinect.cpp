@@ -6,6 +6,9 @@
 namespace beckon::capture {
 namespace {
 
+/// Disparity changes by more than this from pixel to pixel only across an outline.
+constexpr float kOutline_px = 1.2f;
+
 /// Half of a symmetric kernel, the centre first; `squares` receives the sum of squares of all of
 /// it.
 std::vector<float> GaussianKernel(double sigma_px, double& squares) {
@@ -83,11 +86,10 @@ std::vector<float> SmoothWithinSurfaces(const std::vector<float>& disparity, int
 
 /// Disparity beside a pixel changes by more than a surface does.
 bool AtOutline(const std::vector<float>& disparity, int width, int height, int u, int v) {
-  constexpr float kJump_px = 1.2f;
   const float d = disparity[static_cast<size_t>(v) * width + u];
   for (int y = std::max(0, v - 1); y <= std::min(height - 1, v + 1); ++y) {
     for (int x = std::max(0, u - 1); x <= std::min(width - 1, u + 1); ++x) {
-      if (std::abs(disparity[static_cast<size_t>(y) * width + x] - d) > kJump_px) return true;
+      if (std::abs(disparity[static_cast<size_t>(y) * width + x] - d) > kOutline_px) return true;
     }
   }
   return false;
@@ -99,17 +101,25 @@ float Quantile(double probability) {
   return static_cast<float>(std::log(p / (1 - p)) / 1.702);
 }
 
-/// What each pixel of the depth image looks at, after its outline strayed.
-std::vector<size_t> StrayedPixels(const Window& window, double ragged_px, Random& random) {
-  const int w = window.width, h = window.height;
+/// What each pixel of the depth image looks at: itself, or, near an outline, what lies on its other
+/// side.
+std::vector<size_t> StrayedPixels(const Rendering& rendering, const KinectNoise& noise,
+                                  Random& random) {
+  const int w = rendering.window.width, h = rendering.window.height;
   const auto du = SmoothNoise(w, h, 1.5, 1.5, random), dv = SmoothNoise(w, h, 1.5, 1.5, random);
-  std::vector<size_t> source(window.Size());
+  std::vector<size_t> source(rendering.window.Size());
   for (int v = 0; v < h; ++v) {
     for (int u = 0; u < w; ++u) {
       const size_t at = static_cast<size_t>(v) * w + u;
-      const int x = std::clamp(u + static_cast<int>(std::lround(ragged_px * du[at])), 0, w - 1);
-      const int y = std::clamp(v + static_cast<int>(std::lround(ragged_px * dv[at])), 0, h - 1);
-      source[at] = static_cast<size_t>(y) * w + x;
+      const int x =
+          std::clamp(u + static_cast<int>(std::lround(noise.ragged_px * du[at])), 0, w - 1);
+      const int y =
+          std::clamp(v + static_cast<int>(std::lround(noise.ragged_px * dv[at])), 0, h - 1);
+      const size_t other = static_cast<size_t>(y) * w + x;
+      const float here = rendering.depth_m[at], there = rendering.depth_m[other];
+      const bool same = here > 0 && there > 0 &&
+                        std::abs(1 / here - 1 / there) * noise.baseline_focal_m_px < kOutline_px;
+      source[at] = same ? at : other;
     }
   }
   return source;
@@ -138,21 +148,22 @@ std::vector<float> SmoothNoise(int width, int height, double sigma_u_px, double 
 
 KinectNoise RandomKinectNoise(Random& random) {
   KinectNoise noise;
-  noise.sigma_px *= random.Uniform(0.7, 1.4);
-  noise.coarse_sigma_px *= random.Uniform(0.6, 1.5);
-  noise.correlation_u_px *= random.Uniform(0.8, 1.3);
-  noise.correlation_v_px *= random.Uniform(0.8, 1.3);
+  const double strength = random.Uniform(0.75, 1.15);
+  noise.sigma_px *= strength * random.Uniform(0.85, 1.15);
+  noise.coarse_sigma_px *= strength * random.Uniform(0.85, 1.15);
+  noise.coarse_correlation_u_px *= random.Uniform(0.8, 1.25);
+  noise.coarse_correlation_v_px *= random.Uniform(0.8, 1.25);
   noise.smoothing_px = random.Uniform(0.7, 1.8);
-  noise.ragged_px = random.Uniform(0.5, 1.2);
-  noise.edge_dropout = random.Uniform(0.1, 0.45);
-  noise.shadow_dropout = random.Uniform(0.3, 1.0);
+  noise.ragged_px = random.Uniform(0.4, 1.0);
+  noise.edge_dropout = random.Uniform(0.03, 0.25);
+  noise.shadow_dropout = random.Uniform(0.2, 0.9);
   return noise;
 }
 
 KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, Random& random) {
   const Window& window = rendering.window;
   const int w = window.width, h = window.height;
-  const auto source = StrayedPixels(window, noise.ragged_px, random);
+  const auto source = StrayedPixels(rendering, noise, random);
   const auto product = static_cast<float>(noise.baseline_focal_m_px);
   std::vector<float> disparity(window.Size(), 0.0f);
   for (size_t i = 0; i < disparity.size(); ++i) {
@@ -161,7 +172,8 @@ KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, 
   }
   const auto smooth = SmoothWithinSurfaces(disparity, w, h, noise.smoothing_px);
   const auto fine = SmoothNoise(w, h, noise.correlation_u_px, noise.correlation_v_px, random);
-  const auto coarse = SmoothNoise(w, h, 8, 4, random);
+  const auto coarse =
+      SmoothNoise(w, h, noise.coarse_correlation_u_px, noise.coarse_correlation_v_px, random);
   const auto blotches = SmoothNoise(w, h, 1.6, 1.6, random);
   const float shadow_limit = Quantile(noise.shadow_dropout),
               edge_limit = Quantile(noise.edge_dropout);

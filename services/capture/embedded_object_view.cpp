@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "services/capture/embedded_kinect.h"
 #include "services/capture/embedded_stage.h"
@@ -156,9 +157,11 @@ std::optional<ObjectView> TryRender(const Model& model, Random& random) {
 }  // namespace
 
 ObjectView RenderObjectView(const Model& model, Random& random) {
-  for (;;) {
+  constexpr int kAttempts = 1000;
+  for (int i = 0; i < kAttempts; ++i) {
     if (auto view = TryRender(model, random)) return *std::move(view);
   }
+  throw std::logic_error("a " + model.category + " fits no view");
 }
 
 }  // namespace beckon::capture

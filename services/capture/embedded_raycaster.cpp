@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace beckon::capture {
 namespace {
@@ -110,9 +111,39 @@ struct Raycaster::State {
     return ray.tfar < 0;
   }
 
+  /// Light of the lamp that a point returns: scattered, and mirrored as a highlight (Blinn).
+  std::pair<float, float> LampLight(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                                    const Eigen::Vector3f& to_eye, const Eigen::Vector3f& lamp,
+                                    const Material& material, Random& random) const;
   void Shade(const RTCRayHit& hit, size_t pixel, const Lighting& lighting, Random& random,
              Rendering& out) const;
 };
+
+std::pair<float, float> Raycaster::State::LampLight(
+    const Eigen::Vector3f& point, const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
+    const Eigen::Vector3f& lamp, const Material& material, Random& random) const {
+  constexpr int kSamples = 3;
+  constexpr float kLampRadius_m = 0.1f;
+  constexpr float kInShadow = 0.15f;
+  float diffuse = 0, highlight = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const float x = random.Normal(), y = random.Normal(), z = random.Normal();
+    const Eigen::Vector3f spot = lamp + Eigen::Vector3f(x, y, z) * kLampRadius_m;
+    const Eigen::Vector3f to_lamp = (spot - point).normalized();
+    const float facing = normal.dot(to_lamp);
+    if (facing <= 0) continue;
+    if (Occluded(point, spot)) {
+      diffuse += kInShadow * facing;
+      continue;
+    }
+    diffuse += facing;
+    const float half = normal.dot((to_lamp + to_eye).normalized());
+    if (material.gloss > 0.05f && half > 0.8f) {
+      highlight += 180.0f * material.gloss * std::pow(half, 40.0f);
+    }
+  }
+  return {diffuse / kSamples, highlight / kSamples};
+}
 
 void Raycaster::State::Shade(const RTCRayHit& hit, size_t pixel, const Lighting& lighting,
                              Random& random, Rendering& out) const {
@@ -133,19 +164,8 @@ void Raycaster::State::Shade(const RTCRayHit& hit, size_t pixel, const Lighting&
   const Material& material = body.model->materials[triangle.material];
 
   const Eigen::Vector3f outside = point + flat * kSurfaceGap_m;
-  constexpr float kLampRadius_m = 0.12f;
-  const Eigen::Vector3f lamp =
-      (X_CW * lighting.lamp_W).cast<float>() +
-      Eigen::Vector3f(random.Normal(), random.Normal(), random.Normal()) * kLampRadius_m;
-  const Eigen::Vector3f to_lamp = (lamp - point).normalized();
-  float diffuse = std::max(0.0f, normal.dot(to_lamp));
-  float highlight = 0;
-  if (diffuse > 0 && Occluded(outside, lamp)) {
-    diffuse *= 0.15f;
-  } else if (material.gloss > 0.05f) {
-    const float half = std::max(0.0f, normal.dot((to_lamp + to_eye).normalized()));
-    highlight = 180.0f * material.gloss * std::pow(half, 40.0f);
-  }
+  const auto [diffuse, highlight] =
+      LampLight(outside, normal, to_eye, (X_CW * lighting.lamp_W).cast<float>(), material, random);
   const Eigen::Vector3f up_C = X_CW.linear().col(2).cast<float>();
   const float sky = 0.75f + 0.25f * normal.dot(up_C);
   const float light = lighting.ambient * sky + lighting.lamp * diffuse;

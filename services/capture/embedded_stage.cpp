@@ -82,8 +82,8 @@ Stage MakeStage(Random& random, const CameraRange& range) {
   stage.table_far_m = stage.aim_y_m + random.Uniform(0.35, 0.9);
   stage.lighting.lamp_W = {random.Uniform(-1.2, 1.2), stage.aim_y_m + random.Uniform(-1.0, 0.8),
                            random.Uniform(1.3, 2.4)};
-  stage.lighting.ambient = static_cast<float>(random.Uniform(0.45, 0.7));
-  stage.lighting.lamp = static_cast<float>(random.Uniform(0.2, 0.6));
+  stage.lighting.ambient = static_cast<float>(random.Uniform(0.5, 0.75));
+  stage.lighting.lamp = static_cast<float>(random.Uniform(0.3, 0.65));
   const auto warmth = static_cast<float>(random.Uniform(-0.08, 0.08));
   stage.lighting.tint = {1 + warmth, 1, 1 - warmth};
   stage.furniture = MakeFurniture(stage, random);
