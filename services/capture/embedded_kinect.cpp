@@ -106,7 +106,7 @@ float Quantile(double probability) {
 std::vector<size_t> StrayedPixels(const Rendering& rendering, const KinectNoise& noise,
                                   Random& random) {
   const int w = rendering.window.width, h = rendering.window.height;
-  const auto du = SmoothNoise(w, h, 1.5, 1.5, random), dv = SmoothNoise(w, h, 1.5, 1.5, random);
+  const auto du = SmoothNoise(w, h, 2.2, 2.2, random), dv = SmoothNoise(w, h, 2.2, 2.2, random);
   std::vector<size_t> source(rendering.window.Size());
   for (int v = 0; v < h; ++v) {
     for (int u = 0; u < w; ++u) {
@@ -154,9 +154,9 @@ KinectNoise RandomKinectNoise(Random& random) {
   noise.coarse_correlation_u_px *= random.Uniform(0.8, 1.25);
   noise.coarse_correlation_v_px *= random.Uniform(0.8, 1.25);
   noise.smoothing_px = random.Uniform(0.7, 1.8);
-  noise.ragged_px = random.Uniform(0.4, 1.0);
-  noise.edge_dropout = random.Uniform(0.03, 0.25);
-  noise.shadow_dropout = random.Uniform(0.2, 0.9);
+  noise.ragged_px = random.Uniform(0.5, 1.2);
+  noise.edge_dropout = random.Uniform(0.0, 0.12);
+  noise.shadow_dropout = random.Uniform(0.1, 0.7);
   return noise;
 }
 

@@ -22,7 +22,7 @@ struct KinectNoise {
   double step_px = 0.125;
   double smoothing_px = 1.0;    // of the matching window, within a surface
   double ragged_px = 0.7;       // how far outlines stray
-  double edge_dropout = 0.12;   // share of outline pixels without depth
+  double edge_dropout = 0.06;   // share of outline pixels without depth
   double shadow_dropout = 0.7;  // share of the projector's shadow without depth
 };
 

@@ -142,10 +142,11 @@ Model MakeTin(Random& random) {
   }
   const bool lidded = rectangular || kind >= 0.5;
   const uint32_t print = model.AddMaterial(
-      PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f, 0.05f);
+      PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f,
+      0.005f);
   const Rgb metal_colour = random.Chance(0.5) ? Rgb{190, 190, 195} : PackagingColour(random);
   const uint32_t metal =
-      model.AddMaterial(PlainTexture(metal_colour), 0.7f, random.Chance(0.5) ? 0.3f : 0.08f);
+      model.AddMaterial(PlainTexture(metal_colour), 0.7f, random.Chance(0.15) ? 0.3f : 0.01f);
   const double bead = Mm(random, 1, 2.2);
   std::vector<OutlinePoint> outline = {
       {0, 2 * kMm, metal},       {radius - 2 * kMm, 2 * kMm, metal}, {radius - 2 * kMm, 0, metal},

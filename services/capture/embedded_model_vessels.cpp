@@ -10,6 +10,12 @@ constexpr double kMm = 1e-3;
 
 double Mm(Random& random, double low, double high) { return random.Uniform(low, high) * kMm; }
 
+/// Depth lost on bare metal: mostly little, now and then much.
+float ShinyShare(Random& random) {
+  return static_cast<float>(random.Chance(0.2) ? random.Uniform(0.1, 0.5)
+                                               : random.Uniform(0, 0.04));
+}
+
 Rgb MetalColour(Random& random) {
   const auto grey = static_cast<uint8_t>(random.Int(150, 215));
   return {grey, grey, static_cast<uint8_t>(std::min(255, grey + 6))};
@@ -78,8 +84,9 @@ Model MakeCan(Random& random) {
       {32, 33.5, 112, 125}, {25.5, 29.5, 125, 160}, {32, 34.5, 145, 175}, {26, 30, 85, 110}};
   const auto& size = kSizes[random.Int(0, 3)];
   const double radius = Mm(random, size[0], size[1]), height = Mm(random, size[2], size[3]);
-  const uint32_t print = model.AddMaterial(Wrap(random, radius, height), 0.5f, 0.03f);
-  const uint32_t metal = model.AddMaterial(PlainTexture(MetalColour(random)), 0.7f, 0.35f);
+  const uint32_t print = model.AddMaterial(Wrap(random, radius, height), 0.5f, 0.005f);
+  const uint32_t metal =
+      model.AddMaterial(PlainTexture(MetalColour(random)), 0.7f, ShinyShare(random));
   const double inset = Mm(random, 4, 7), rim = Mm(random, 2, 4);
   std::vector<OutlinePoint> outline = {
       {0, 4 * kMm, metal}, {radius - 9 * kMm, 0, metal}, {radius - 6 * kMm, 0, print}};
@@ -98,8 +105,9 @@ Model MakeCan(Random& random) {
 Model MakeSprayCan(Random& random) {
   Model model;
   const double radius = Mm(random, 21, 34), height = std::max(Mm(random, 130, 260), radius * 4.2);
-  const uint32_t print = model.AddMaterial(Wrap(random, radius, height), 0.5f, 0.03f);
-  const uint32_t metal = model.AddMaterial(PlainTexture(MetalColour(random)), 0.7f, 0.25f);
+  const uint32_t print = model.AddMaterial(Wrap(random, radius, height), 0.5f, 0.005f);
+  const uint32_t metal =
+      model.AddMaterial(PlainTexture(MetalColour(random)), 0.7f, ShinyShare(random));
   const uint32_t plastic = model.AddMaterial(PlainTexture(PackagingColour(random)), 0.3f);
   std::vector<OutlinePoint> outline = {
       {0, 3 * kMm, metal}, {radius * 0.9, 0, metal}, {radius, 2 * kMm, print}};

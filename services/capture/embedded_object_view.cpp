@@ -55,9 +55,9 @@ Pose PutBeside(const Model& neighbour, const std::vector<Eigen::Vector2d>& objec
 std::vector<uint8_t> StrayMask(const Stage& stage, const Window& window, const KinectDepth& depth,
                                Random& random) {
   const int w = window.width, h = window.height;
-  const double stray_px = random.Uniform(0.2, 1.0);
+  const double stray_px = random.Uniform(0.0, 0.7);
   const double lowest_m = random.Chance(0.5) ? random.Uniform(0.002, 0.008) : -0.01;
-  const auto du = SmoothNoise(w, h, 1.5, 1.5, random), dv = SmoothNoise(w, h, 1.5, 1.5, random);
+  const auto du = SmoothNoise(w, h, 2, 2, random), dv = SmoothNoise(w, h, 2, 2, random);
   std::vector<uint8_t> mask(window.Size(), 0);
   for (int v = 0; v < h; ++v) {
     for (int u = 0; u < w; ++u) {
