@@ -36,6 +36,7 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
   }
   table.Get("cluster_tolerance_m", config.cluster_tolerance_m, 0.0005, 0.5);
   table.Get("cluster_min_points", config.cluster_min_points, 1, 10'000'000);
+  table.Get("border_m", config.border_m, 0, 1);
   table.Get("max_objects", config.max_objects, 1, 64);
 }
 

@@ -39,6 +39,7 @@ struct SegmentationConfig {
   double max_height_m = 0.50;
   double cluster_tolerance_m = 0.01;  // points this close belong to one object
   int cluster_min_points = 150;       // voxels, fewer are no object
+  double border_m = 0.03;             // what stays this close to the table's border is no object
   int max_objects = 64;               // the largest are kept
 };
 

@@ -54,6 +54,24 @@ int Cluster(std::span<const Eigen::Vector3f> points_C, std::span<const uint32_t>
   return static_cast<int>(clusters.size());
 }
 
+/// Takes away the clusters that only line the table's border: a wall behind it, say, whose noise
+/// reaches over the edge. Fewer than a fifth of their points lie deeper in than border_m.
+void DropBorderClusters(std::span<const Eigen::Vector3f> points_C, const Plane& table_C,
+                        std::span<const Eigen::Vector2d> outline, const SegmentationConfig& config,
+                        std::vector<uint32_t>& cluster_of_point, int n_clusters) {
+  const PlaneAxes axes(table_C);
+  std::vector<int> n_points(n_clusters + 1, 0), n_deep(n_clusters + 1, 0);
+  for (size_t i = 0; i < points_C.size(); ++i) {
+    const uint32_t k = cluster_of_point[i];
+    if (k == 0) continue;
+    ++n_points[k];
+    n_deep[k] += DepthInside(outline, axes(points_C[i].cast<double>())) > config.border_m;
+  }
+  for (uint32_t& k : cluster_of_point) {
+    if (n_deep[k] * 5 < n_points[k]) k = 0;
+  }
+}
+
 /// Gives every pixel the number of its voxel's cluster, renumbered by the clusters' pixels, most
 /// first.
 void LabelPixels(const VoxelGrid& grid, std::span<const uint32_t> cluster_of_voxel, int n_clusters,
@@ -66,9 +84,11 @@ void LabelPixels(const VoxelGrid& grid, std::span<const uint32_t> cluster_of_vox
   for (int k = 0; k < n_clusters; ++k) order[k] = k + 1;
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return n_pixels[a] > n_pixels[b]; });
+  std::erase_if(order, [&](int k) { return n_pixels[k] == 0; });
+  n_clusters = static_cast<int>(order.size());
   result.n_objects = std::min(n_clusters, config.max_objects);
   result.n_left_out = n_clusters - result.n_objects;
-  std::vector<uint16_t> label_of_cluster(n_clusters + 1, 0);
+  std::vector<uint16_t> label_of_cluster(n_pixels.size(), 0);
   for (int k = 0; k < result.n_objects; ++k)
     label_of_cluster[order[k]] = static_cast<uint16_t>(k + 1);
   for (size_t pixel = 0; pixel < result.labels.size(); ++pixel) {
@@ -139,6 +159,7 @@ Segmentation SegmentReference(const RgbdImage& image, const SegmentationConfig& 
   finished("prism");
   std::vector<uint32_t> cluster_of_voxel;
   const int n_clusters = Cluster(grid.points_C, above, config, cluster_of_voxel);
+  DropBorderClusters(grid.points_C, *table.table_C, outline, config, cluster_of_voxel, n_clusters);
   finished("clusters");
   LabelPixels(grid, cluster_of_voxel, n_clusters, config, result);
   finished("labels");

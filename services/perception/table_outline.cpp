@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 
 namespace beckon::perception {
@@ -50,6 +51,15 @@ bool Contains(std::span<const Eigen::Vector2d> hull, const Eigen::Vector2d& p) {
     if (Cross(hull[i], hull[(i + 1) % hull.size()], p) < 0) return false;
   }
   return hull.size() >= 3;
+}
+
+double DepthInside(std::span<const Eigen::Vector2d> hull, const Eigen::Vector2d& p) {
+  double depth = std::numeric_limits<double>::max();
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d& next = hull[(i + 1) % hull.size()];
+    depth = std::min(depth, Cross(hull[i], next, p) / (next - hull[i]).norm());
+  }
+  return depth;
 }
 
 std::vector<Eigen::Vector2d> LargestPiece(std::span<const Eigen::Vector2d> points, double gap) {

@@ -24,6 +24,9 @@ std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
 /// Whether `p` lies in a counter-clockwise convex polygon, its border included.
 bool Contains(std::span<const Eigen::Vector2d> hull, const Eigen::Vector2d& p);
 
+/// How far inside a counter-clockwise convex polygon `p` lies; negative outside.
+double DepthInside(std::span<const Eigen::Vector2d> hull, const Eigen::Vector2d& p);
+
 /// Of `points`, those of the piece that holds most of them, where points within about `gap` belong
 /// together. A wall or a chair that happens to cut the table's plane is not the table.
 std::vector<Eigen::Vector2d> LargestPiece(std::span<const Eigen::Vector2d> points, double gap);
