@@ -1,0 +1,86 @@
+// The configuration that ships, and those that are wrong.
+#include "services/perception/perception_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace beckon::perception {
+namespace {
+
+Result<PerceptionConfig> Read(const std::string& text, const Overrides& overrides = {}) {
+  auto table = ConfigTable::Parse(text, "test.toml");
+  if (!table) return table.error();
+  return ReadPerceptionConfig(*table, overrides);
+}
+
+TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
+  auto table = ConfigTable::Load(BECKON_SOURCE_DIR "/services/perception/perception.toml");
+  ASSERT_TRUE(table) << table.error().message;
+  auto read = ReadPerceptionConfig(*table);
+  ASSERT_TRUE(read) << read.error().message;
+  const PerceptionConfig defaults;
+  const SegmentationConfig &a = read->perceiver.segmentation, &b = defaults.perceiver.segmentation;
+  EXPECT_EQ(a.min_range_m, b.min_range_m);
+  EXPECT_EQ(a.max_range_m, b.max_range_m);
+  EXPECT_EQ(a.voxel_m, b.voxel_m);
+  EXPECT_EQ(a.use_normals, b.use_normals);
+  EXPECT_EQ(a.normal_neighbours, b.normal_neighbours);
+  EXPECT_EQ(a.normal_weight, b.normal_weight);
+  EXPECT_EQ(a.plane_distance_m, b.plane_distance_m);
+  EXPECT_EQ(a.plane_iterations, b.plane_iterations);
+  EXPECT_EQ(a.plane_min_points, b.plane_min_points);
+  EXPECT_EQ(a.table_max_tilt_deg, b.table_max_tilt_deg);
+  EXPECT_EQ(a.table_gap_m, b.table_gap_m);
+  EXPECT_EQ(a.min_height_m, b.min_height_m);
+  EXPECT_EQ(a.max_height_m, b.max_height_m);
+  EXPECT_EQ(a.cluster_tolerance_m, b.cluster_tolerance_m);
+  EXPECT_EQ(a.cluster_min_points, b.cluster_min_points);
+  EXPECT_EQ(a.border_m, b.border_m);
+  EXPECT_EQ(a.max_objects, b.max_objects);
+  EXPECT_EQ(read->perceiver.tracker.max_step_m, defaults.perceiver.tracker.max_step_m);
+  EXPECT_EQ(read->perceiver.tracker.min_overlap, defaults.perceiver.tracker.min_overlap);
+  EXPECT_EQ(read->perceiver.tracker.forget_after_frames,
+            defaults.perceiver.tracker.forget_after_frames);
+  EXPECT_EQ(read->perceiver.recategorise_step_m, defaults.perceiver.recategorise_step_m);
+  EXPECT_EQ(read->perceiver.recategorise_growth, defaults.perceiver.recategorise_growth);
+  EXPECT_EQ(read->perceiver.threads, defaults.perceiver.threads);
+  EXPECT_EQ(read->categories, defaults.categories);
+  EXPECT_EQ(read->model, defaults.model);
+  EXPECT_EQ(read->ask_at_or_below, defaults.ask_at_or_below);
+}
+
+TEST(PerceptionConfig, RefusesWhatIsWrong) {
+  for (const char* text :
+       {"[segmentation]\nvoxel_m = 0", "[segmentation]\nvoxel = 0.002",
+        "[segmentation]\nmethod = \"magic\"", "threads = 0",
+        "[segmentation]\nmin_range_m = 2.0\nmax_range_m = 1.0",
+        "[segmentation]\nmin_height_m = 0.6", "[tracker]\nmin_overlap = \"a\""}) {
+    const auto read = Read(text);
+    ASSERT_FALSE(read) << text;
+    EXPECT_THAT(read.error().message, testing::HasSubstr("test.toml")) << text;
+  }
+}
+
+TEST(PerceptionConfig, TheCommandLineGoesOverTheFile) {
+  const auto read = Read("threads = 2\n[categoriser]\nmodel = \"a\"",
+                         {.model = "b", .no_categories = true, .threads = 3});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->perceiver.threads, 3);
+  EXPECT_EQ(read->model, "b");
+  EXPECT_FALSE(read->categories);
+  EXPECT_FALSE(Read("", {.segmentation = "magic"}));
+}
+
+TEST(PerceptionConfig, AMissingModelIsClear) {
+  PerceptionConfig config;
+  config.model = "/no/such.model";
+  const auto categoriser = LoadCategoriser(config);
+  ASSERT_FALSE(categoriser);
+  EXPECT_THAT(categoriser.error().message, testing::HasSubstr("/no/such.model"));
+  EXPECT_THAT(categoriser.error().message, testing::HasSubstr("--no-categories"));
+  config.categories = false;
+  EXPECT_TRUE(LoadCategoriser(config));
+}
+
+}  // namespace
+}  // namespace beckon::perception
