@@ -1,12 +1,17 @@
 #include "services/intention/affordances_file.h"
 
+#include <unistd.h>
+
 #include "services/base/config.h"
 
 namespace beckon::intention {
 
 Result<Affordances> ReadAffordances(const std::string& path) {
+  if (access(path.c_str(), R_OK) != 0) {
+    return Error{path + ": cannot read the affordances; check --affordances"};
+  }
   auto file = ConfigTable::Load(path);
-  if (!file) return Error{file.error().message + " (the affordances; see --affordances)"};
+  if (!file) return file.error();
   std::vector<Action> actions;
   ConfigTable action_table = file->Section("actions");
   for (const std::string& name : action_table.Keys()) {

@@ -91,7 +91,7 @@ class AdaptiveDialogue : public Dialogue {
         p += joint_[i][level];
         level_[level] += joint_[i][level];
       }
-      (i < posterior_.size() ? posterior_[i] : none_) = p;
+      (i < posterior_.size() ? posterior_[i] : none_) = std::min(p, 1.0);
     }
   }
 

@@ -1,0 +1,320 @@
+#include "tests/intention/conversation_fixture.h"
+
+namespace beckon::intention {
+namespace {
+
+using Kind = msg::SessionKind;
+
+class ConversationTest : public testing::Test {
+ protected:
+  void Begin(const std::string& id = "s1") {
+    desk.Announce("switch");
+    desk.Show(scene);
+    desk.Start(id);
+  }
+  const msg::Scene scene =
+      SceneOf({SceneObject(1, "Carton", 0.1, 0.5), SceneObject(2, "Mug", -0.1, 0.4),
+               SceneObject(3, "Mug", 0.2, 0.7), SceneObject(4, "Box", 0.3, 0.6)});
+  const Wish open_carton{"Open", 1, "Carton"};
+  FakeMemory memory;
+  Desk desk{memory};
+};
+
+TEST_F(ConversationTest, LeadsToATaskThatWasRememberedFirst) {
+  EXPECT_EQ(desk.events.back().kind, Kind::kIdle);
+  Begin();
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
+  ASSERT_EQ(desk.queries.size(), 1u);
+  const msg::Session end = desk.Converse(open_carton);
+  EXPECT_EQ(end.kind, Kind::kConfirmed);
+  EXPECT_EQ(end.text, "Open the carton.");
+  ASSERT_EQ(desk.tasks.size(), 1u);
+  const msg::Task& task = desk.tasks[0];
+  EXPECT_EQ(task.task_id, "s1");
+  EXPECT_EQ(task.action, "Open");
+  EXPECT_EQ(task.object.object_id, 1);
+  EXPECT_EQ(task.object.category, "Carton");
+  EXPECT_EQ(task.object.instance, 1);
+  EXPECT_EQ(task.expires_utime, task.utime + 30 * kSecond);
+  EXPECT_FALSE(task.has_pose);
+  ASSERT_EQ(memory.sessions.size(), 1u);
+  EXPECT_EQ(memory.sessions[0].questions, task.questions);
+  EXPECT_EQ(memory.sessions[0].answers.size(), static_cast<size_t>(task.questions));
+  EXPECT_TRUE(memory.sessions[0].answers.back().meant_yes);
+}
+
+TEST_F(ConversationTest, AsksOnceTheSecondTime) {
+  Begin();
+  desk.Converse(open_carton);
+  desk.Start("s2");
+  ASSERT_EQ(desk.queries.back().text, "Open the carton?");
+  EXPECT_EQ(desk.queries.back().kind, msg::QueryKind::kFull);
+  desk.Answer(desk.queries.back(), 0);
+  EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);
+  EXPECT_EQ(memory.sessions[1].questions, 1);
+}
+
+TEST_F(ConversationTest, TaskIsNotPublishedWhereItCannotBeRemembered) {
+  Begin();
+  memory.fails = true;
+  const msg::Session end = desk.Converse(open_carton);
+  EXPECT_EQ(end.kind, Kind::kAbandoned);
+  EXPECT_NE(end.text.find("the disk is full"), std::string::npos);
+  EXPECT_TRUE(desk.tasks.empty());
+}
+
+TEST_F(ConversationTest, RepeatsQueryAndAnnouncement) {
+  Begin();
+  desk.Clear();
+  desk.Wait(3 * kSecond);
+  EXPECT_EQ(desk.queries.size(), 6u);
+  EXPECT_EQ(desk.events.size(), 3u);
+  for (const auto& query : desk.queries) EXPECT_EQ(query.id, desk.queries[0].id);
+  for (const auto& event : desk.events) EXPECT_EQ(event.kind, Kind::kBegun);
+}
+
+TEST_F(ConversationTest, RefusesStaleForeignAndMisshapenAnswers) {
+  Begin();
+  const msg::Query first = desk.queries.back();
+  desk.Answer(first, 1);
+  const msg::Query second = desk.queries.back();
+  ASSERT_NE(second.id, first.id);
+  desk.Answer(first, 1);  // a duplicate
+  EXPECT_EQ(desk.conversation->counters().stale_answers, 1);
+  msg::Answer foreign = desk.AnswerTo(second, 0);
+  foreign.session_id = "other";
+  desk.Take(desk.conversation->OnAnswer(foreign, desk.now));
+  EXPECT_EQ(desk.conversation->counters().stale_answers, 2);
+  msg::Answer misshapen = desk.AnswerTo(second, 0);
+  misshapen.likelihoods.push_back(1);
+  desk.Take(desk.conversation->OnAnswer(misshapen, desk.now));
+  EXPECT_EQ(desk.queries.back().id, second.id);
+  EXPECT_EQ(desk.conversation->counters().answers, 1);
+  EXPECT_EQ(desk.refusals.size(), 3u);
+}
+
+TEST_F(ConversationTest, TaskIsRepeatedUntilAcknowledged) {
+  Begin();
+  desk.Converse(open_carton);
+  desk.Clear();
+  desk.Wait(2 * kSecond);
+  EXPECT_EQ(desk.tasks.size(), 4u);
+  EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);  // still announced
+  msg::TaskStatus accepted{desk.now, "s1", msg::TaskState::kAccepted, "", {}};
+  desk.Take(desk.conversation->OnTaskStatus(accepted, desk.now));
+  desk.Take(desk.conversation->OnTaskStatus(accepted, desk.now));
+  desk.Clear();
+  desk.Wait(40 * kSecond);
+  EXPECT_TRUE(desk.tasks.empty());
+  EXPECT_TRUE(desk.statuses.empty());
+  EXPECT_EQ(memory.states.at("s1"), msg::TaskState::kAccepted);
+}
+
+TEST_F(ConversationTest, TaskThatNobodyTookExpires) {
+  Begin();
+  desk.Converse(open_carton);
+  desk.Wait(31 * kSecond);
+  ASSERT_EQ(desk.statuses.size(), 1u);
+  EXPECT_EQ(desk.statuses[0].state, msg::TaskState::kExpired);
+  EXPECT_EQ(memory.states.at("s1"), msg::TaskState::kExpired);
+  desk.Clear();
+  desk.Wait(5 * kSecond);
+  EXPECT_TRUE(desk.tasks.empty());
+}
+
+TEST_F(ConversationTest, WaitsForAFreshScene) {
+  desk.Start();
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
+  EXPECT_FALSE(desk.events.back().text.empty());
+  EXPECT_TRUE(desk.queries.empty());
+  msg::Scene bare = scene;
+  bare.objects.clear();
+  desk.Show(bare);
+  EXPECT_EQ(desk.events.back().text, "Waiting for objects on the table.");
+  desk.Show(scene);
+  EXPECT_EQ(desk.events.back().text, "");
+  EXPECT_EQ(desk.queries.size(), 1u);
+}
+
+TEST_F(ConversationTest, RefusesToBeginOnAnOldScene) {
+  desk.Show(scene);
+  desk.now += 6 * kSecond;
+  desk.Start();
+  EXPECT_TRUE(desk.queries.empty());
+  EXPECT_NE(desk.events.back().text.find("picture"), std::string::npos);
+  desk.Show(scene);
+  EXPECT_EQ(desk.queries.size(), 1u);
+}
+
+TEST_F(ConversationTest, KeepsItsSceneWhilePerceptionComesAndGoes) {
+  Begin();
+  desk.Show(SceneOf({SceneObject(9, "Tube", 0, 0.5)}));
+  const msg::Session end = desk.Converse(open_carton);
+  EXPECT_EQ(end.text, "Open the carton.");
+}
+
+TEST_F(ConversationTest, TakesPosesByIdAndPlace) {
+  msg::Poses poses;
+  poses.poses.resize(3);
+  poses.poses[0].object_id = 1;
+  poses.poses[0].converged = true;
+  poses.poses[0].X_WO.translation() = Eigen::Vector3d(0.12, 0.52, 0.05);
+  poses.poses[1].object_id = 2;  // another object's place
+  poses.poses[1].converged = true;
+  poses.poses[1].X_WO.translation() = Eigen::Vector3d(0.5, 0.5, 0.05);
+  poses.poses[2].object_id = 4;  // did not converge
+  poses.poses[2].X_WO.translation() = Eigen::Vector3d(0.3, 0.6, 0.05);
+  Begin();
+  desk.Take(desk.conversation->OnPoses(poses, desk.now));
+  desk.Converse(open_carton);
+  EXPECT_TRUE(desk.tasks.back().has_pose);
+  EXPECT_EQ(desk.tasks.back().pose.object_id, 1);
+  desk.Start("s2");
+  desk.Converse({"Drink", 2, "Mug"});
+  EXPECT_FALSE(desk.tasks.back().has_pose);
+  desk.Start("s3");
+  desk.Converse({"Push", 4, "Box"});
+  EXPECT_FALSE(desk.tasks.back().has_pose);
+}
+
+TEST_F(ConversationTest, UndoTakesTheLastAnswerBack) {
+  Begin();
+  const msg::Query first = desk.queries.back();
+  desk.Answer(first, 1 - Desk::Honest(first, open_carton, {}));  // a slip
+  desk.Request(Kind::kRequestUndo);
+  const msg::Query again = desk.queries.back();
+  EXPECT_EQ(again.text, first.text);
+  EXPECT_NE(again.id, first.id);
+  EXPECT_EQ(again.questions_asked, 0);
+  EXPECT_EQ(desk.Converse(open_carton).kind, Kind::kConfirmed);
+}
+
+TEST_F(ConversationTest, DuplicatedUndoTakesOneAnswerBack) {
+  Begin();
+  desk.Answer(desk.queries.back(), 1);
+  desk.Answer(desk.queries.back(), 1);
+  desk.Request(Kind::kRequestUndo, "s1", "ann", 77);
+  desk.Request(Kind::kRequestUndo, "s1", "ann", 77);
+  EXPECT_EQ(desk.queries.back().questions_asked, 1);
+  desk.Request(Kind::kRequestUndo, "s1", "ann", 78);
+  desk.Request(Kind::kRequestUndo, "s1", "ann", 79);  // nothing left
+  EXPECT_EQ(desk.queries.back().questions_asked, 0);
+}
+
+TEST_F(ConversationTest, CancelLearnsNothing) {
+  Begin();
+  desk.Answer(desk.queries.back(), 0);
+  desk.Request(Kind::kRequestCancel);
+  EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+  EXPECT_TRUE(memory.sessions.empty());
+  const size_t queries = desk.queries.size();
+  desk.Start("s1");  // a late duplicate of the start does not raise the dead
+  EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+  desk.Request(Kind::kRequestCancel);
+  EXPECT_EQ(desk.queries.size(), queries);
+  desk.Start("s2");
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
+}
+
+TEST_F(ConversationTest, OneSessionPerUser) {
+  Begin();
+  desk.Start("s2");
+  EXPECT_EQ(desk.events.back().session_id, "s1");
+  EXPECT_EQ(desk.queries.size(), 1u);
+  desk.Start("b1", "bob");
+  EXPECT_EQ(desk.events.back().session_id, "b1");
+  EXPECT_EQ(desk.queries.back().user, "bob");
+  const msg::Query to_bob = desk.queries.back();
+  desk.Request(Kind::kRequestCancel, "s1", "bob");  // not his
+  EXPECT_EQ(desk.conversation->counters().abandoned, 0);
+  desk.Request(Kind::kRequestCancel, "s1", "ann");
+  desk.Answer(to_bob, 1);
+  EXPECT_EQ(desk.queries.back().session_id, "b1");
+}
+
+TEST_F(ConversationTest, StopStopsEverythingUntilResume) {
+  Begin();
+  desk.Converse(open_carton);
+  desk.Start("s2");
+  const msg::Query open = desk.queries.back();
+  desk.Request(Kind::kRequestStop, "s2");
+  EXPECT_EQ(desk.events.back().kind, Kind::kStopped);
+  ASSERT_EQ(desk.statuses.size(), 1u);
+  EXPECT_EQ(desk.statuses[0].state, msg::TaskState::kRevoked);
+  desk.Clear();
+  desk.Answer(open, 0);
+  desk.Start("s3");
+  desk.Show(scene);
+  desk.Wait(3 * kSecond);
+  EXPECT_TRUE(desk.queries.empty());
+  EXPECT_TRUE(desk.tasks.empty());
+  for (const auto& event : desk.events) EXPECT_EQ(event.kind, Kind::kStopped);
+  desk.Restart();  // killing the process is no way out
+  EXPECT_EQ(desk.events.back().kind, Kind::kStopped);
+  desk.Request(Kind::kRequestResume);
+  EXPECT_EQ(desk.events.back().kind, Kind::kIdle);
+  desk.Show(scene);
+  desk.Start("s2");
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
+}
+
+TEST_F(ConversationTest, KilledBeforeTheCommitStartsOver) {
+  Begin();
+  const msg::Query first = desk.queries.back();
+  desk.Answer(first, 1);
+  desk.Restart();
+  EXPECT_EQ(desk.events.back().kind, Kind::kIdle);
+  desk.Announce("switch");
+  desk.Show(scene);
+  desk.Start("s1");
+  EXPECT_EQ(desk.queries.back().text, first.text);
+  EXPECT_EQ(desk.queries.back().questions_asked, 0);
+  EXPECT_GT(desk.queries.back().id, first.id);
+  EXPECT_EQ(desk.Converse(open_carton).kind, Kind::kConfirmed);
+  EXPECT_EQ(memory.sessions.size(), 1u);
+}
+
+TEST_F(ConversationTest, KilledAfterTheCommitPublishesTheTaskAgain) {
+  Begin();
+  desk.Converse(open_carton);
+  const msg::Task task = desk.tasks.back();
+  desk.Clear();
+  desk.Restart();
+  ASSERT_EQ(desk.tasks.size(), 1u);
+  EXPECT_EQ(desk.tasks[0].task_id, task.task_id);
+  EXPECT_EQ(desk.tasks[0].expires_utime, task.expires_utime);
+  desk.Show(scene);
+  desk.Start("s1");
+  EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);
+  EXPECT_EQ(desk.events.back().session_id, "s1");
+  EXPECT_TRUE(desk.queries.empty());
+  EXPECT_EQ(memory.sessions.size(), 1u);
+  desk.now += 40 * kSecond;
+  desk.Clear();
+  desk.Restart();
+  EXPECT_TRUE(desk.tasks.empty());  // expired meanwhile
+  ASSERT_EQ(desk.statuses.size(), 1u);
+  EXPECT_EQ(desk.statuses[0].state, msg::TaskState::kExpired);
+}
+
+TEST_F(ConversationTest, UnknownCategoryOfAMessageIsRefusedByName) {
+  desk.Show(SceneOf({SceneObject(1, "Teapot", 0, 0.5), SceneObject(2, "Mug", 0.1, 0.5)}));
+  desk.Start();
+  ASSERT_FALSE(desk.refusals.empty());
+  EXPECT_NE(desk.refusals[0].detail.find("'Teapot'"), std::string::npos);
+  EXPECT_FALSE(desk.queries.empty());  // the mug is still of use
+}
+
+TEST_F(ConversationTest, NoisyDeviceNeedsMoreThanOneYes) {
+  desk.Announce("switch", 0.15f);
+  desk.Show(scene);
+  desk.Start();
+  EXPECT_EQ(desk.Converse(open_carton).kind, Kind::kConfirmed);
+  EXPECT_GE(desk.tasks.back().posterior, 0.99);
+  desk.Start("s2");
+  desk.Answer(desk.queries.back(), 0);
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);  // not on one yes
+}
+
+}  // namespace
+}  // namespace beckon::intention

@@ -1,0 +1,78 @@
+#include "services/intention/core/prior.h"
+
+#include <numeric>
+
+#include "tests/intention/fixtures.h"
+
+namespace beckon::intention {
+namespace {
+
+class Prior : public testing::Test {
+ protected:
+  double Of(const std::vector<double>& prior, const char* category, int rank,
+            const char* action) const {
+    return prior[s.Find(a.FindCategory(category), rank, a.FindAction(action))];
+  }
+  PastSession Past(const char* category, const char* action, int rank = 1) const {
+    return {a.FindCategory(category), a.FindAction(action), rank, "", {}};
+  }
+  const Affordances a = TestAffordances();
+  const Situation s = MakeSituation(
+      a, Things(a, {{"Mug", 0.3}, {"Mug", 0.6}, {"Carton", 0.5}, {"Tube", 0.4}, {"Box", 0.9}}));
+};
+
+TEST_F(Prior, SumsToOneWhateverThePast) {
+  std::mt19937_64 random(5);
+  UserHistory history;
+  for (int i = 0; i < 300; ++i) {
+    const int category = static_cast<int>(random() % a.categories().size());
+    const auto& actions = a.categories()[category].actions;
+    history.push_back(
+        {category, actions[random() % actions.size()], 1 + static_cast<int>(random() % 9), "", {}});
+    const auto prior = PriorOver(s, history);
+    EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
+    for (const double p : prior) EXPECT_GT(p, 0);
+  }
+}
+
+TEST_F(Prior, PrefersTheNearestAndWhatWasWanted) {
+  const auto fresh = PriorOver(s, {});
+  EXPECT_GT(Of(fresh, "Mug", 1, "Drink"), Of(fresh, "Mug", 2, "Drink"));
+  EXPECT_DOUBLE_EQ(Of(fresh, "Mug", 1, "Drink"), Of(fresh, "Carton", 1, "Open"));
+  const auto learnt = PriorOver(s, {Past("Carton", "Open")});
+  EXPECT_GT(Of(learnt, "Carton", 1, "Open"), 0.5);
+  EXPECT_GT(Of(learnt, "Carton", 1, "Pour"), 0);
+}
+
+TEST_F(Prior, LearnsWhetherTheUserRepeats) {
+  const UserHistory repeats(10, Past("Carton", "Open"));
+  UserHistory switches;
+  for (int i = 0; i < 10; ++i)
+    switches.push_back(i % 2 == 0 ? Past("Box", "Push") : Past("Carton", "Open"));
+  EXPECT_GT(Of(PriorOver(s, repeats), "Carton", 1, "Open"), 0.95);
+  EXPECT_GT(Of(PriorOver(s, switches), "Box", 1, "Push"), 0.25);
+}
+
+TEST_F(Prior, CopesWithALastTaskThatIsNotThere) {
+  const auto prior = PriorOver(s, {Past("Bottle", "Pour"), Past("Mug", "Drink", 5)});
+  EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
+  EXPECT_GT(Of(prior, "Mug", 1, "Drink"), 0.3);  // rank 5 is absent: the nearest
+  EXPECT_TRUE(PriorOver(MakeSituation(a, {}), {}).empty());
+}
+
+TEST_F(Prior, CapKeepsTheSum) {
+  std::vector<double> prior = {0.97, 0.02, 0.01};
+  CapPrior(prior, 0.9);
+  EXPECT_DOUBLE_EQ(prior[0], 0.9);
+  EXPECT_NEAR(prior[1] / prior[2], 2, 1e-9);
+  EXPECT_NEAR(prior[0] + prior[1] + prior[2], 1, 1e-12);
+  std::vector<double> certain = {1, 0};
+  CapPrior(certain, 0.9);
+  EXPECT_NEAR(certain[1], 0.1, 1e-12);
+  std::vector<double> alone = {1};
+  CapPrior(alone, 0.9);
+  EXPECT_DOUBLE_EQ(alone[0], 1);
+}
+
+}  // namespace
+}  // namespace beckon::intention
