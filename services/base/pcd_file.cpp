@@ -150,7 +150,12 @@ Status ReadSize(const Entries& entries, Header& header) {
   const auto width = number(entries.width);
   const auto height = number(entries.height);
   const auto points = number(entries.points);
-  if (!width && !points) return Error{"PCD header: expected WIDTH, HEIGHT and POINTS as counts"};
+  const auto garbled = [](const auto& words, const auto& count) {
+    return !words.empty() && !count;
+  };
+  if ((!width && !points) || garbled(entries.width, width) || garbled(entries.height, height) ||
+      garbled(entries.points, points))
+    return Error{"PCD header: expected WIDTH, HEIGHT and POINTS as counts"};
   header.width = width ? *width : *points;
   header.height = height ? *height : 1;
   if (header.width > kMaxPoints || header.height > kMaxPoints ||
