@@ -60,7 +60,12 @@ ScenarioSession ParseSession(const std::string& line, const Affordances& afforda
   if (!scene.is_array() || scene.empty() || scene.size() > kMaxThings) {
     throw "'scene' must be a list of 1 to " + std::to_string(kMaxThings) + " objects";
   }
-  for (const json& object : scene) session.scene.push_back(ParseThing(object, affordances));
+  bool all_lateral = true;
+  for (const json& object : scene) {
+    session.scene.push_back(ParseThing(object, affordances));
+    all_lateral &= object.contains("lateral_m");
+  }
+  for (Thing& thing : session.scene) thing.lateral_m = all_lateral ? thing.lateral_m : 0;
   const json& want = Need(root, "want");
   session.want_category = NeedCategory(want, affordances);
   const json& instance = Need(want, "instance");

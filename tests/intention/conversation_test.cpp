@@ -258,6 +258,41 @@ TEST_F(ConversationTest, StopStopsEverythingUntilResume) {
   EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
 }
 
+TEST_F(ConversationTest, LateDuplicatesOfStopAndResumeChangeNothing) {
+  Begin();
+  desk.Request(Kind::kRequestResume, "s1", "ann", 50);  // nothing is stopped
+  desk.Request(Kind::kRequestStop, "s1", "ann", 51);
+  desk.Request(Kind::kRequestResume, "s1", "ann", 50);
+  EXPECT_TRUE(desk.conversation->stopped());
+  desk.Request(Kind::kRequestResume, "s1", "ann", 52);
+  EXPECT_FALSE(desk.conversation->stopped());
+  desk.Request(Kind::kRequestStop, "s1", "ann", 51);
+  EXPECT_FALSE(desk.conversation->stopped());
+  desk.Request(Kind::kRequestStop, "s1", "ann", 53);
+  EXPECT_TRUE(desk.conversation->stopped());
+}
+
+TEST_F(ConversationTest, EveryMessageTwiceIsTheSameConversation) {
+  desk.Announce("switch");
+  for (int i = 0; i < 2; ++i) desk.Show(scene);
+  for (int i = 0; i < 2; ++i) desk.Request(Kind::kRequestStart, "s1", "ann", 5);
+  while (desk.events.back().kind == Kind::kBegun) {
+    const msg::Query query = desk.queries.back();
+    for (int i = 0; i < 2; ++i) desk.Answer(query, Desk::Honest(query, open_carton, {}));
+  }
+  EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);
+  EXPECT_EQ(memory.sessions.size(), 1u);
+  EXPECT_EQ(desk.tasks.size(), 1u);
+  desk.Request(Kind::kRequestStart, "s1", "ann", 5);
+  EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);
+  EXPECT_EQ(desk.conversation->counters().sessions, 1);
+}
+
+TEST_F(ConversationTest, ATaskStatusOfAnUnknownTaskIsIgnored) {
+  desk.Take(desk.conversation->OnTaskStatus({1, "ghost", msg::TaskState::kDone, "", {}}, desk.now));
+  EXPECT_TRUE(memory.states.empty());
+}
+
 TEST_F(ConversationTest, KilledBeforeTheCommitStartsOver) {
   Begin();
   const msg::Query first = desk.queries.back();

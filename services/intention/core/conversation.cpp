@@ -2,13 +2,17 @@
 
 #include <algorithm>
 
+#include "services/intention/core/conversation_talk.h"
+
 namespace beckon::intention {
 namespace {
 
 constexpr char kSessionChannel[] = "BECKON_SESSION";
 constexpr char kAnswerChannel[] = "BECKON_ANSWER";
-constexpr size_t kRememberedEnds = 32;
 constexpr size_t kMostDevices = 64;
+
+/// Requests remembered to know duplicates by.
+constexpr size_t kRememberedRequests = 64;
 
 /// FNV-1a: the same session has the same ties everywhere.
 uint64_t Hash(const std::string& text) {
@@ -18,27 +22,6 @@ uint64_t Hash(const std::string& text) {
 }
 
 }  // namespace
-
-/// A running session.
-struct Conversation::Talk {
-  std::string session_id;
-  std::string user;
-  std::string device;
-  std::string waits_for;  // empty once it has a scene
-  std::vector<std::string> remembered;
-  msg::Scene scene;
-  std::map<int, msg::ObjectPose> poses;  // by index of the scene's object
-  std::unique_ptr<Interview> interview;
-  std::optional<msg::Query> query;
-  Utime query_sent = 0;
-  Utime announced = 0;
-  std::optional<std::pair<std::string, Utime>> last_request;  // device and time, to know duplicates
-};
-
-struct Conversation::PendingTask {
-  msg::Task task;
-  Utime sent = 0;
-};
 
 Conversation::Conversation(const Affordances& affordances, const Policy& policy, Memory& memory,
                            const ConversationConfig& config)
@@ -76,6 +59,14 @@ void Conversation::AnnounceRunning(Talk& talk, Utime now) {
   actions_.push_back(event);
 }
 
+bool Conversation::Seen(const msg::Session& request) {
+  const RequestIdentity identity{request.kind, request.session_id, request.device, request.utime};
+  if (std::find(seen_.begin(), seen_.end(), identity) != seen_.end()) return true;
+  seen_.push_back(identity);
+  if (seen_.size() > kRememberedRequests) seen_.pop_front();
+  return false;
+}
+
 const msg::Session* Conversation::Ended(const std::string& session_id) const {
   for (const msg::Session& event : ended_) {
     if (event.session_id == session_id) return &event;
@@ -106,6 +97,7 @@ Actions Conversation::Recover(Utime now) {
       latest_.session_id = task.task_id;
       latest_.user = task.user;
       latest_.questions = task.questions;
+      latest_.text = task.action + " " + task.object.category + ".";
     }
   }
   if (stopped_) {
@@ -135,6 +127,7 @@ void Conversation::Start(const msg::Session& request, Utime now) {
     confirmed.session_id = request.session_id;
     confirmed.user = (*known)->user;
     confirmed.questions = (*known)->questions;
+    confirmed.text = (*known)->action + " " + (*known)->category + ".";
     actions_.push_back(confirmed);
     return;
   }
@@ -235,6 +228,9 @@ Actions Conversation::OnInterface(const msg::Interface& announced, Utime) {
   model.max_options = announced.max_options;
   model.rates = {announced.false_yes, announced.false_no};
   model.confusion = announced.confusion;
+  if (model.confusion.size() == 2) {  // rows: meant yes, meant no
+    model.rates = {model.confusion[1][0], model.confusion[0][1]};
+  }
   for (auto& [user, talk] : talks_) {
     if (talk->interview) talk->interview->Know(announced.device, model);
   }
@@ -299,7 +295,7 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
       Stop(request, now);
       return Taken();
     case Kind::kRequestResume:
-      Resume(now);
+      Resume(request, now);
       return Taken();
     case Kind::kRequestCancel:
     case Kind::kRequestUndo:
@@ -322,9 +318,7 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
     Abandon(*talk, "Cancelled.", now, false);
     return Taken();
   }
-  const std::pair identity{request.device, request.utime};
-  if (!talk->interview || talk->last_request == identity) return Taken();
-  talk->last_request = identity;
+  if (!talk->interview || Seen(request)) return Taken();
   if (request.kind == Kind::kRequestNoneOfThese) {
     ++counters_.answers;
     talk->interview->NoneOfThese(request.device);
@@ -333,201 +327,6 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
   }
   Advance(*talk, now);
   return Taken();
-}
-
-// ---- Ending
-// ---------------------------------------------------------------------------------------
-
-std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) const {
-  std::vector<LabelRecord> records;
-  for (const GivenLabel& label : talk.interview->Labels()) {
-    const msg::SceneObject& object = talk.scene.objects[label.object];
-    LabelRecord record;
-    record.id = talk.session_id + "/label/" + std::to_string(object.id);
-    record.session_id = talk.session_id;
-    record.user = talk.user;
-    record.utime = now;
-    record.category = label.category;
-    record.source = talk.scene.source;
-    record.centroid_W = object.centroid_W;
-    record.extent_W = object.extent_W;
-    record.probabilities = object.probabilities;
-    records.push_back(std::move(record));
-  }
-  return records;
-}
-
-msg::Task Conversation::MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const {
-  const msg::SceneObject& object = talk.scene.objects[accepted.object];
-  msg::Task task;
-  task.utime = now;
-  task.task_id = talk.session_id;
-  task.user = talk.user;
-  task.action = accepted.action;
-  task.object = {object.id, accepted.category, accepted.instance};
-  task.centroid_W = object.centroid_W;
-  task.pose.object_id = object.id;
-  if (const auto pose = talk.poses.find(accepted.object); pose != talk.poses.end()) {
-    task.has_pose = true;
-    task.pose = pose->second;
-  }
-  task.X_WC = talk.scene.X_WC;
-  task.posterior = std::min(accepted.posterior, 1.0);
-  task.questions = talk.interview->questions();
-  task.expires_utime = now + config_.task_lifetime;
-  return task;
-}
-
-/// On disk first, then the task.
-void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) {
-  SessionRecord record;
-  record.session_id = talk.session_id;
-  record.user = talk.user;
-  record.device = talk.device;
-  record.utime = now;
-  record.category = accepted.category;
-  record.action = accepted.action;
-  record.instance = accepted.instance;
-  record.questions = talk.interview->questions();
-  record.posterior = accepted.posterior;
-  record.answers = talk.interview->Answers();
-  const msg::Task task = MakeTask(talk, accepted, now);
-  const auto committed = memory_.Commit(record, LabelsOf(talk, now), task);
-  if (!committed) {
-    return Abandon(talk,
-                   "It could not be remembered, so nothing was done: " + committed.error().message,
-                   now, false);
-  }
-  if (*committed) {
-    ++counters_.confirmed;
-    ++counters_.tasks;
-    tasks_[task.task_id] = {task, now};
-    actions_.push_back(task);
-  }
-  msg::Session event = Event(msg::SessionKind::kConfirmed, now);
-  event.session_id = record.session_id;
-  event.user = record.user;
-  event.questions = record.questions;
-  event.text = accepted.text + ".";
-  Announce(event, now);
-  End(talk.user);
-}
-
-void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels) {
-  ++counters_.abandoned;
-  if (keep_labels && talk.interview) {
-    if (Status kept = memory_.CommitLabels(LabelsOf(talk, now)); !kept) {
-      Refuse(kSessionChannel, kept.error().message);
-    }
-  }
-  msg::Session event = Event(msg::SessionKind::kAbandoned, now);
-  event.session_id = talk.session_id;
-  event.user = talk.user;
-  event.questions = talk.interview ? talk.interview->questions() : 0;
-  event.text = text;
-  Announce(event, now);
-  End(talk.user);
-}
-
-void Conversation::End(std::string user) {
-  ended_.push_back(latest_);
-  if (ended_.size() > kRememberedEnds) ended_.pop_front();
-  talks_.erase(user);
-}
-
-void Conversation::Stop(const msg::Session& request, Utime now) {
-  if (stopped_) return Announce(msg::Session(latest_), now);
-  stopped_ = true;
-  msg::Session event = Event(msg::SessionKind::kStopped, now);
-  event.session_id = request.session_id;
-  event.user = request.user;
-  event.text = "Stopped. Only \"resume\" leads on.";
-  Announce(event, now);
-  talks_.clear();
-  if (Status set = memory_.SetStopped(true, now); !set)
-    Refuse(kSessionChannel, set.error().message);
-  RevokeTasks(now);
-}
-
-void Conversation::RevokeTasks(Utime now) {
-  for (const auto& [id, pending] : tasks_) {
-    actions_.push_back(
-        msg::TaskStatus{now, id, msg::TaskState::kRevoked, "The user stopped everything.", {}});
-    if (Status noted = memory_.NoteTask(id, msg::TaskState::kRevoked, now); !noted) {
-      Refuse(kSessionChannel, noted.error().message);
-    }
-  }
-  tasks_.clear();
-}
-
-void Conversation::Resume(Utime now) {
-  if (!stopped_) return;
-  if (Status set = memory_.SetStopped(false, now); !set)
-    return Refuse(kSessionChannel, set.error().message);
-  stopped_ = false;
-  Announce(Event(msg::SessionKind::kIdle, now), now);
-}
-
-// ---- Repeating
-// ------------------------------------------------------------------------------------
-
-Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
-  const auto pending = tasks_.find(status.task_id);
-  if (pending == tasks_.end()) return Taken();
-  if (Status noted = memory_.NoteTask(status.task_id, status.state, now); !noted) {
-    Refuse("BECKON_TASK_STATUS", noted.error().message);
-  }
-  tasks_.erase(pending);
-  return Taken();
-}
-
-void Conversation::RepeatTasks(Utime now) {
-  for (auto entry = tasks_.begin(); entry != tasks_.end();) {
-    auto& [id, pending] = *entry;
-    if (pending.task.expires_utime <= now) {
-      ++counters_.expired;
-      actions_.push_back(msg::TaskStatus{
-          now, id, msg::TaskState::kExpired, "No robot took the task in time.", {}});
-      if (Status noted = memory_.NoteTask(id, msg::TaskState::kExpired, now); !noted) {
-        Refuse("BECKON_TASK_STATUS", noted.error().message);
-      }
-      entry = tasks_.erase(entry);
-      continue;
-    }
-    if (now - pending.sent >= config_.task_period) {
-      pending.sent = now;
-      actions_.push_back(pending.task);
-    }
-    ++entry;
-  }
-}
-
-Actions Conversation::Tick(Utime now) {
-  std::vector<Talk*> waiting;
-  for (auto& [user, talk] : talks_) {
-    if (!talk->interview) waiting.push_back(talk.get());
-    if (talk->query && now - talk->query_sent >= config_.query_period) {
-      talk->query_sent = now;
-      actions_.push_back(*talk->query);
-    }
-    if (now - talk->announced >= config_.announce_period) AnnounceRunning(*talk, now);
-  }
-  // A scene that was fresh when it was waited for may have grown old.
-  for (Talk* talk : waiting) TryBegin(*talk, now);
-  if (now - latest_announced_ >= config_.announce_period && (stopped_ || talks_.empty())) {
-    latest_.utime = now;
-    Announce(msg::Session(latest_), now);
-  }
-  RepeatTasks(now);
-  return Taken();
-}
-
-std::string Conversation::StateText() const {
-  if (stopped_) return "stopped";
-  if (talks_.empty()) return "idle";
-  const Talk& talk = *talks_.begin()->second;
-  if (!talk.waits_for.empty()) return talk.waits_for;
-  return talk.query ? "asking " + talk.user + ": " + talk.query->text : "busy";
 }
 
 }  // namespace beckon::intention

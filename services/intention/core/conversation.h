@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -77,6 +78,7 @@ class Conversation {
  private:
   struct Talk;         // a running session
   struct PendingTask;  // published and not yet acknowledged
+  using RequestIdentity = std::tuple<msg::SessionKind, std::string, std::string, Utime>;
 
   void Start(const msg::Session& request, Utime now);
   void TryBegin(Talk& talk, Utime now);
@@ -85,13 +87,15 @@ class Conversation {
   void Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels);
   void End(std::string user);
   void Stop(const msg::Session& request, Utime now);
-  void Resume(Utime now);
+  void Resume(const msg::Session& request, Utime now);
   void RevokeTasks(Utime now);
   void RepeatTasks(Utime now);
 
   msg::Task MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const;
   std::vector<LabelRecord> LabelsOf(const Talk& talk, Utime now) const;
   Talk* Find(const msg::Session& request);
+  /// Whether this very request came before; remembers it.
+  bool Seen(const msg::Session& request);
   const msg::Session* Ended(const std::string& session_id) const;
   void Announce(const msg::Session& event, Utime now);
   void AnnounceRunning(Talk& talk, Utime now);
@@ -110,8 +114,9 @@ class Conversation {
   std::map<std::string, std::unique_ptr<Talk>> talks_;  // by user
   std::map<std::string, PendingTask> tasks_;            // by task id
   std::map<std::string, DeviceModel> devices_;
-  std::deque<msg::Session> ended_;  // the last few outcomes, newest at the back
-  msg::Session latest_;             // the event that is announced while nothing runs
+  std::deque<RequestIdentity> seen_;  // the last few requests
+  std::deque<msg::Session> ended_;    // the last few outcomes, newest at the back
+  msg::Session latest_;               // the event that is announced while nothing runs
   Utime latest_announced_ = 0;
   std::optional<msg::Scene> scene_;
   Utime scene_arrived_ = 0;
