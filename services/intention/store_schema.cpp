@@ -44,26 +44,31 @@ constexpr std::array<const char*, kSchemaVersion> kSteps = {
         utime INTEGER NOT NULL,
         stopped INTEGER NOT NULL CHECK (stopped IN (0, 1))
       );
-      CREATE VIEW forgotten AS
-        SELECT r.uid FROM rows r JOIN rows f ON f.kind = 'forget'
-        WHERE r.kind IN ('session', 'label') AND (
-          json_extract(f.body, '$.session_id') = json_extract(r.body, '$.session_id')
-          OR (json_extract(f.body, '$.user') = r.user AND EXISTS (
-            SELECT 1 FROM json_each(f.body, '$.covers') c WHERE c.key = r.origin AND c.value >= r.seq)));
+      CREATE VIEW forgets AS
+        SELECT json_extract(body, '$.session_id') AS session_id, json_extract(body, '$.user') AS user,
+          json_extract(body, '$.covers') AS covers
+        FROM rows WHERE kind = 'forget';
       CREATE VIEW sessions AS
         SELECT origin, seq, user, utime, body,
-          json_extract(body, '$.session_id') AS session_id,
+          substr(uid, length('session/') + 1) AS session_id,
           json_extract(body, '$.category') AS category,
           json_extract(body, '$.action') AS action,
           json_extract(body, '$.instance') AS instance,
           json_extract(body, '$.questions') AS questions,
           json_extract(body, '$.device') AS device
-        FROM rows WHERE kind = 'session' AND uid NOT IN (SELECT uid FROM forgotten);
+        FROM rows r WHERE kind = 'session'
+          AND NOT EXISTS (SELECT 1 FROM forgets f WHERE r.uid = 'session/' || f.session_id)
+          AND NOT EXISTS (SELECT 1 FROM forgets f, json_each(f.covers) c
+            WHERE f.user = r.user AND c.key = r.origin AND c.value >= r.seq);
       CREATE VIEW labels AS
         SELECT origin, seq, user, utime, body,
+          json_extract(body, '$.session_id') AS session_id,
           json_extract(body, '$.category') AS category,
           json_extract(body, '$.source') AS source
-        FROM rows WHERE kind = 'label' AND uid NOT IN (SELECT uid FROM forgotten);
+        FROM rows r WHERE kind = 'label'
+          AND NOT EXISTS (SELECT 1 FROM forgets f WHERE json_extract(r.body, '$.session_id') = f.session_id)
+          AND NOT EXISTS (SELECT 1 FROM forgets f, json_each(f.covers) c
+            WHERE f.user = r.user AND c.key = r.origin AND c.value >= r.seq);
       CREATE VIEW counts AS
         SELECT user, category, action, COUNT(*) AS n, SUM(questions) AS questions, MAX(utime) AS last_utime
         FROM sessions GROUP BY user, category, action;

@@ -59,6 +59,7 @@ class Lookahead {
       Consider(AskObject(object), by_object_[object]);
     if (families == QueryFamilies::kAll) {
       ConsiderCategories();
+      ConsiderPairsOfActions();
       ConsiderPrefixes([](const Instance& o) { return o.distance_m; });
       if (situation_.has_lateral) ConsiderPrefixes([](const Instance& o) { return o.lateral_m; });
     }
@@ -111,6 +112,18 @@ class Lookahead {
       done |= mask;
       if (std::popcount(mask) > 1)
         Consider({QuestionKind::kCategory, kAny, mask, -1}, MassOfObjects(mask));
+    }
+  }
+
+  /// "Grasp or move something?"
+  void ConsiderPairsOfActions() {
+    for (int a = 0; a < kMaxActions; ++a) {
+      if (by_action_[a].p <= 0) continue;
+      for (int b = a + 1; b < kMaxActions; ++b) {
+        if (by_action_[b].p <= 0) continue;
+        const uint64_t both = uint64_t{1} << a | uint64_t{1} << b;
+        Consider({QuestionKind::kAction, both, kAny, -1}, by_action_[a] + by_action_[b]);
+      }
     }
   }
 
