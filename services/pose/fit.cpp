@@ -14,6 +14,10 @@ namespace beckon::pose {
 namespace {
 
 constexpr size_t kFewestPoints = 20;
+constexpr int kJudges = 1000;  // points that the mean distance is taken of, at most
+// Points that the covariance counts, at most: neighbours in a depth image err together, so that ten
+// thousand of them do not know ten times as much as a hundred.
+constexpr int kWitnesses = 300;
 constexpr double kThinnest_m = 0.0005;  // spread below which points lie on a plane or a line
 
 constexpr std::array<std::pair<Method, const char*>, 2> kMethods{
@@ -142,8 +146,8 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   }
   result.shape = outcome.shape;
   result.ambiguous = outcome.ambiguous;
-  result.mean_radial_distance_m = MeanRadialDistance(result.shape, points);
-  result.covariance = PoseCovariance(result.shape, points);
+  result.mean_radial_distance_m = MeanRadialDistance(result.shape, Thinned(points, kJudges));
+  result.covariance = PoseCovariance(result.shape, Thinned(points, kWitnesses));
   if (!outcome.converged) {
     result.reason = "the fit was still improving when its iterations ran out";
   } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {

@@ -12,6 +12,8 @@
 namespace beckon::pose {
 namespace {
 
+constexpr int kPointsForSize = 300;
+
 // s^2 log(1 + (r/s)^2) and its weight (Cauchy; Zhang 1997, table 1).
 struct Robust {
   double cost, weight;
@@ -76,8 +78,9 @@ class AdaptiveProblem : public FitProblem {
   void AddSupport(const Superquadric& shape, NormalEquations& eq) const {
     ParameterVector jacobian;
     const double below = Reach(shape, -scene_.table->normal, jacobian) - scene_.table->offset_m;
-    eq.Add(below, jacobian, config_.support_weight);
-    eq.cost += config_.support_weight * below * below;
+    const Robust robust = Cauchy(below, config_.support_noise_m);
+    eq.Add(below, jacobian, config_.support_weight * robust.weight);
+    eq.cost += config_.support_weight * robust.cost;
   }
 
   // The upright axis has no horizontal components.
@@ -120,36 +123,40 @@ int UprightAxis(const Superquadric& shape, const std::optional<Plane>& table) {
   return axis;
 }
 
-// About `count` points: every so manieth.
-PointList Thinned(const PointList& points, int count) {
-  const size_t step = std::max<size_t>(points.size() / static_cast<size_t>(count), 1);
-  PointList thinned;
-  for (size_t i = 0; i < points.size(); i += step) thinned.push_back(points[i]);
-  return thinned;
-}
-
 // About `count` points evenly spread over the surface: the centroids of a voxel grid of fitting
-// size.
+// size, which is found on a part of the points.
 PointList EvenlySpread(const PointList& points, int count, double size_m) {
   if (points.size() <= static_cast<size_t>(count)) return points;
   double voxel_m = size_m / std::sqrt(static_cast<double>(count));
-  PointList spread = VoxelCentroids(points, voxel_m);
+  const PointList part = Thinned(points, 4 * count);
   for (int tries = 0; tries < 3; ++tries) {
-    const double ratio = static_cast<double>(spread.size()) / count;
+    const double ratio = static_cast<double>(VoxelCentroids(part, voxel_m).size()) / count;
     if (ratio > 0.8 && ratio < 1.25) break;
     voxel_m *= std::sqrt(ratio);  // points lie on a surface
-    spread = VoxelCentroids(points, voxel_m);
   }
-  return spread;
+  return VoxelCentroids(points, voxel_m);
+}
+
+// Whether the lowest points are well above the table: the object's foot is hidden behind another
+// object, or the object stands on another, and how far down it goes is not known.
+bool FootIsUnseen(const PointList& points, const std::optional<Plane>& table, double gap_m) {
+  if (!table) return false;
+  std::vector<double> heights;
+  for (const auto& p : points) heights.push_back(table->Distance(p));
+  const auto low = heights.begin() + static_cast<long>(heights.size() / 50);
+  std::nth_element(heights.begin(), low, heights.end());
+  return *low > gap_m;
 }
 
 }  // namespace
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
                           const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
-  const std::vector<Superquadric> starts = Starts(points_F, table_F);
+  const double size =
+      ComputePrincipalBox(Thinned(points_F, kPointsForSize)).half_extents.maxCoeff();
+  const PointList fine = EvenlySpread(points_F, config.fine_points, 2 * size);
+  const std::vector<Superquadric> starts = Starts(fine, table_F);
   const double reach = starts[0].semi_axes.maxCoeff();
-  const PointList fine = EvenlySpread(points_F, config.fine_points, 2 * reach);
   const PointList coarse = Thinned(fine, config.coarse_points);
   const Scene scene{table_F, viewpoint_F,
                     OutlinePlanes(points_F, viewpoint_F, table_F, config.outline_planes,
@@ -173,7 +180,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   };
   std::stable_sort(fits.begin(), fits.end(), cheaper);
   fits.resize(2);
-  options = {config.fine_iterations, 1e-5};
+
+  options = {config.fine_iterations, 1e-4};
   for (LmResult& fit : fits) {
     const AdaptiveProblem problem(fine, scene, UprightAxis(fit.shape, table_F), config);
     fit = Minimise(problem, fit.shape, bounds, options);
@@ -182,9 +190,10 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   std::stable_sort(fits.begin(), fits.end(), cheaper);
   outcome.shape = fits[0].shape;
   outcome.converged = fits[0].converged;
-  outcome.ambiguous = MeanRadialDistance(fits[1].shape, fine) <
-                          kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
-                      ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
+  const bool other_shape = MeanRadialDistance(fits[1].shape, fine) <
+                               kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
+                           ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
+  outcome.ambiguous = other_shape || FootIsUnseen(fine, table_F, config.unseen_foot_m);
   return outcome;
 }
 

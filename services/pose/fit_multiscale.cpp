@@ -12,6 +12,8 @@ namespace {
 
 constexpr size_t kFewestPoints = 20;  // that a level must have, for 11 parameters
 
+constexpr double kStopLevel = 1e-4;  // relative gain of a step that ends a level
+
 // Mean of [sqrt(a1 a2 a3) (F^e1 - 1)]^2 (Solina & Bajcsy 1990, eq. 17); F^e1 = g^2.
 class SolinaProblem : public FitProblem {
  public:
@@ -21,12 +23,14 @@ class SolinaProblem : public FitProblem {
     const double root_volume = std::sqrt(shape.semi_axes.prod());
     const double weight = 1.0 / static_cast<double>(points_.size());
     NormalEquations eq;
+    ParameterVector jacobian;
     for (const auto& p : points_) {
-      GaugeDerivatives d;
-      ParameterVector jacobian = LogGaugeJacobian(shape, p, d);
+      const Eigen::Vector3d arm_F = p - shape.X_FO.translation();
+      const GaugeDerivatives d = DifferentiateGauge(shape, shape.X_FO.linear().transpose() * arm_F);
       const double g2 = std::exp(2 * d.log_g);
       const double residual = root_volume * (g2 - 1);
-      jacobian *= 2 * root_volume * g2;
+      const double scale = 2 * root_volume * g2;
+      FillJacobian(shape, arm_F, d, scale, scale, jacobian);
       jacobian.segment<3>(kLogAxes).array() += 0.5 * residual;
       eq.Add(residual, jacobian, weight);
       eq.cost += weight * residual * residual;
@@ -74,6 +78,7 @@ Candidate FitLevels(const std::vector<PointList>& levels, const Superquadric& st
   const FitBounds bounds = BoundsFor(start, config);
   LmOptions options;
   options.max_iterations = config.max_iterations;
+  options.relative_tolerance = kStopLevel;
   const PointList& all = levels.back();
   Candidate candidate;
   candidate.last.shape = start;

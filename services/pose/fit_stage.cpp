@@ -2,6 +2,7 @@
 #include "services/pose/fit_stage.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -17,6 +18,15 @@ struct VoxelHash {
 };
 
 }  // namespace
+
+PointList Thinned(const PointList& points, int count) {
+  const size_t most = static_cast<size_t>(std::max(count, 1));
+  const size_t step = std::max<size_t>((points.size() + most - 1) / most, 1);
+  PointList thinned;
+  thinned.reserve(most);
+  for (size_t i = 0; i < points.size(); i += step) thinned.push_back(points[i]);
+  return thinned;
+}
 
 PointList VoxelCentroids(const PointList& points, double voxel_m) {
   std::unordered_map<std::array<int64_t, 3>, size_t, VoxelHash> index;
@@ -66,19 +76,17 @@ PrincipalBox ComputePrincipalBox(const PointList& points) {
 
 SurfaceDistance DistanceToSurface(const Superquadric& shape, const Eigen::Vector3d& p_F) {
   constexpr double kMaxShrink = 4;  // keeps the Jacobian bounded near the centre
-  GaugeDerivatives d;
-  SurfaceDistance result;
-  result.jacobian = LogGaugeJacobian(shape, p_F, d);
+  const Eigen::Vector3d arm_F = p_F - shape.X_FO.translation();
+  const GaugeDerivatives d = DifferentiateGauge(shape, shape.X_FO.linear().transpose() * arm_F);
   // grad g = g grad log g, so (g - 1) / |grad g| = (1 - 1/g) / |grad log g|.
-  const double slope = std::max(d.point.norm(), 1e-9);
-  result.distance_m = -std::expm1(-d.log_g) / slope;
+  const double by_slope = 1 / std::max(d.point.norm(), 1e-9);
+  const double by_g = std::exp(-d.log_g);
+  SurfaceDistance result;
+  result.distance_m = (1 - by_g) * by_slope;
   // Taken at the point of the surface on the same ray, p/g, where the slope is g times as large:
   // log g changes by the same amount there, but for a translation, which moves it by g times as
   // much.
-  result.jacobian /= slope;
-  const double shrink = std::min(std::exp(-d.log_g), kMaxShrink);
-  result.jacobian.head<kTranslation>() *= shrink;
-  result.jacobian.tail<kParameters - kTaper>() *= shrink;
+  FillJacobian(shape, arm_F, d, std::min(by_g, kMaxShrink) * by_slope, by_slope, result.jacobian);
   return result;
 }
 

@@ -25,6 +25,9 @@ struct MethodOutcome {
   std::vector<int> iterations;
 };
 
+/// At most about `count` points: every so manieth.
+PointList Thinned(const PointList& points, int count);
+
 /// The centroid of the points in each voxel of a grid, in the order of the voxels' first points.
 PointList VoxelCentroids(const PointList& points, double voxel_m);
 

@@ -111,19 +111,15 @@ LmResult Minimise(const FitProblem& problem, const Superquadric& start, const Fi
   return result;
 }
 
-ParameterVector LogGaugeJacobian(const Superquadric& shape, const Eigen::Vector3d& p_F,
-                                 GaugeDerivatives& d) {
-  const Eigen::Matrix3d& R = shape.X_FO.linear();
-  const Eigen::Vector3d arm_F = p_F - shape.X_FO.translation();
-  d = DifferentiateGauge(shape, R.transpose() * arm_F);
-  const Eigen::Vector3d gradient_F = R * d.point;
-  ParameterVector j;
-  j.segment<3>(kLogAxes) = d.log_semi_axes;
-  j.segment<2>(kEpsilon) = d.epsilon;
-  j.segment<3>(kRotation) = gradient_F.cross(arm_F);
-  j.segment<3>(kTranslation) = -gradient_F;
-  j.segment<2>(kTaper) = d.taper;
-  return j;
+void FillJacobian(const Superquadric& shape, const Eigen::Vector3d& arm_F,
+                  const GaugeDerivatives& d, double scale, double translation_scale,
+                  ParameterVector& jacobian) {
+  const Eigen::Vector3d gradient_F = shape.X_FO.linear() * d.point;
+  jacobian.segment<3>(kLogAxes) = scale * d.log_semi_axes;
+  jacobian.segment<2>(kEpsilon) = scale * d.epsilon;
+  jacobian.segment<3>(kRotation) = scale * gradient_F.cross(arm_F);
+  jacobian.segment<3>(kTranslation) = -translation_scale * gradient_F;
+  jacobian.segment<2>(kTaper) = scale * d.taper;
 }
 
 }  // namespace beckon::pose

@@ -63,8 +63,11 @@ Superquadric Move(const Superquadric& shape, const ParameterVector& step, const 
 LmResult Minimise(const FitProblem& problem, const Superquadric& start, const FitBounds& bounds,
                   const LmOptions& options);
 
-/// d log g at `p_F` by all parameters; `d` receives the derivatives in O.
-ParameterVector LogGaugeJacobian(const Superquadric& shape, const Eigen::Vector3d& p_F,
-                                 GaugeDerivatives& d);
+/// The derivatives by all parameters of a function of log g, from those of log g at a point:
+/// `arm_F` is the point from the shape's centre. `scale` multiplies the derivatives,
+/// `translation_scale` those by the translation.
+void FillJacobian(const Superquadric& shape, const Eigen::Vector3d& arm_F,
+                  const GaugeDerivatives& d, double scale, double translation_scale,
+                  ParameterVector& jacobian);
 
 }  // namespace beckon::pose

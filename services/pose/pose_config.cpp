@@ -18,6 +18,8 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
   table.Get("volume_prior_m2", c.volume_prior_m2, 0, 1);
   table.Get("support_weight", c.support_weight, 0, 1e6);
+  table.Get("support_noise_m", c.support_noise_m, 1e-5, 1);
+  table.Get("unseen_foot_m", c.unseen_foot_m, 0, 10);
   table.Get("tilt_weight", c.tilt_weight, 0, 1e6);
   table.Get("outline_planes", c.outline_planes, 0, 1000);
   table.Get("outline_weight", c.outline_weight, 0, 1e6);

@@ -39,10 +39,6 @@ LogNorm3 NestedLogNorm(const Eigen::Vector3d& l, const Eigen::Vector2d& e) {
           {xyz.by_e, xyz.weight * xy.by_e}};
 }
 
-Eigen::Vector2d TaperFactors(const Superquadric& shape, double z) {
-  return (shape.taper * (z / shape.semi_axes.z())).array() + 1.0;
-}
-
 // |value| with the size of a coordinate that is zero.
 double NotZero(double value, double scale) { return std::max(std::abs(value), kTiny * scale); }
 
@@ -57,12 +53,14 @@ GaugeDerivatives DifferentiateGauge(const Superquadric& shape, const Eigen::Vect
   const Eigen::Vector3d& a = shape.semi_axes;
   const Eigen::Vector3d size(NotZero(p_O.x(), a.x()), NotZero(p_O.y(), a.y()),
                              NotZero(p_O.z(), a.z()));
-  Eigen::Vector3d l = (size.array() / a.array()).log();
-  const bool tapered = !shape.taper.isZero(0);
-  Eigen::Vector2d factor(1, 1);
-  if (tapered) {
-    factor = TaperFactors(shape, p_O.z()).cwiseMax(kMinTaperFactor);
-    l.head<2>() -= factor.array().log().matrix();
+  const Eigen::Vector3d by_a = a.cwiseInverse();
+  Eigen::Vector3d l = size.cwiseProduct(by_a).array().log();
+  const double height = p_O.z() * by_a.z();
+  Eigen::Vector2d by_factor(1, 1);  // 1 over what the taper multiplies x and y by
+  if (!shape.taper.isZero(0)) {
+    const Eigen::Vector2d factor = (shape.taper * height).array() + 1.0;
+    l.head<2>() -= factor.cwiseMax(kMinTaperFactor).array().log().matrix();
+    for (int i = 0; i < 2; ++i) by_factor[i] = factor[i] > kMinTaperFactor ? 1 / factor[i] : 0;
   }
 
   const LogNorm3 norm = NestedLogNorm(l, shape.epsilon);
@@ -71,16 +69,10 @@ GaugeDerivatives DifferentiateGauge(const Superquadric& shape, const Eigen::Vect
   d.log_semi_axes = -norm.weight;
   d.epsilon = norm.by_e;
   for (int i = 0; i < 3; ++i) d.point[i] = std::copysign(norm.weight[i] / size[i], p_O[i]);
-  d.taper.setZero();
-  if (tapered) {
-    for (int i = 0; i < 2; ++i) {
-      if (factor[i] <= kMinTaperFactor) continue;
-      const double by_factor = -norm.weight[i] / factor[i];
-      d.taper[i] = by_factor * p_O.z() / a.z();
-      d.point.z() += by_factor * shape.taper[i] / a.z();
-      d.log_semi_axes.z() -= by_factor * shape.taper[i] * p_O.z() / a.z();
-    }
-  }
+  d.taper = -height * norm.weight.head<2>().cwiseProduct(by_factor);
+  const double by_height = -norm.weight.head<2>().cwiseProduct(by_factor).dot(shape.taper);
+  d.point.z() += by_height * by_a.z();
+  d.log_semi_axes.z() -= by_height * height;
   return d;
 }
 

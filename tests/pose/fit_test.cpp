@@ -210,6 +210,17 @@ TEST(Adaptive, StandsOnTheTableItIsTold) {
   EXPECT_NEAR(foot, 0, 0.001);
 }
 
+TEST(Adaptive, AdmitsThatItDoesNotSeeTheFoot) {
+  const Superquadric box = MakeShape({0.04, 0.06, 0.09}, 0.1, 0.1, {0, 0, 0.09}, {0, 0, 0.5});
+  TableView view = ViewOnTable(box, 3000, 0.0015);
+  EXPECT_FALSE(Fit({view.points_C, view.table_C}, With(Method::kAdaptive)).ambiguous);
+  std::erase_if(view.points_C,
+                [&](const Vector3f& p) { return view.table_C.Distance(p.cast<double>()) < 0.08; });
+  const FitResult result = Fit({view.points_C, view.table_C}, With(Method::kAdaptive));
+  EXPECT_TRUE(result.ambiguous);
+  ExpectFinite(result);
+}
+
 TEST(Methods, AreKnownByNameAndOthersRefusedWithTheList) {
   EXPECT_EQ(*ParseMethod("adaptive"), Method::kAdaptive);
   EXPECT_EQ(*ParseMethod("multiscale"), Method::kMultiscale);
