@@ -28,7 +28,9 @@ Model MakeFurniture(const Stage& stage, Random& random) {
   const uint32_t table = room.AddMaterial(TableTexture(random), random.Chance(0.3) ? 0.15f : 0.0f);
   const uint32_t edge = room.AddMaterial(PlainTexture(CrockeryColour(random)), 0.0f);
   const uint32_t floor = room.AddMaterial(TableTexture(random), 0.0f);
-  const uint32_t wall = room.AddMaterial(PlainTexture(CrockeryColour(random)), 0.0f);
+  Rgb paint = CrockeryColour(random);  // walls are paler than crockery
+  for (uint8_t& channel : paint) channel = static_cast<uint8_t>(150 + channel * 2 / 5);
+  const uint32_t wall = room.AddMaterial(PlainTexture(paint), 0.0f);
   const double w = stage.table_half_width_m, n = stage.table_near_m, f = stage.table_far_m;
   constexpr double kThickness_m = 0.03, kTableHeight_m = 0.73;
   AddPanel(room.mesh, {{{-w, n, 0}, {w, n, 0}, {w, f, 0}, {-w, f, 0}}}, table, 0.5);

@@ -90,6 +90,8 @@ TEST_F(CaptureProgramTest, ChecksItsConfiguration) {
   const std::string config = Put(
       "good.toml", "rate_hz = 5.0\nembedded_seed = 7\nintrinsics = [525.0, 525.0, 319.5, 239.5]\n");
   EXPECT_EQ(RunProgram("--check-config --config " + config).code, 0);
+  const std::string shipped = std::string(BECKON_SOURCE_DIR) + "/services/capture/capture.toml";
+  EXPECT_EQ(RunProgram("--check-config --config " + shipped).output, "");
   EXPECT_EQ(RunProgram("--version").code, 0);
   EXPECT_THAT(RunProgram("--help").output, HasSubstr("--render-objects"));
 }
