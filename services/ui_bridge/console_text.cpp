@@ -1,10 +1,13 @@
 #include "services/ui_bridge/console_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <vector>
 
 namespace beckon::ui_bridge {
 namespace {
@@ -27,6 +30,30 @@ bool IsYesNo(const msg::Query& query) {
 std::string HowToAnswer(const msg::Query& query) {
   return IsYesNo(query) ? "y = yes, n = no"
                         : "1-" + std::to_string(query.options.size()) + " = that option";
+}
+
+std::vector<const msg::SceneObject*> FromLeft(const msg::Scene& scene) {
+  std::vector<const msg::SceneObject*> objects;
+  for (const auto& object : scene.objects) objects.push_back(&object);
+  std::ranges::stable_sort(objects, {}, [](const auto* object) { return object->centroid_W.x(); });
+  return objects;
+}
+
+std::string Distance(const msg::SceneObject& object) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.0f cm away", 100 * object.centroid_W.head<2>().norm());
+  return text.data();
+}
+
+/// "number 3 of 7 from the left, 62 cm away"; empty where the scene has no such object.
+std::string Whereabouts(const msg::Scene& scene, int object_id) {
+  const auto objects = FromLeft(scene);
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i]->id != object_id) continue;
+    return "number " + std::to_string(i + 1) + " of " + std::to_string(objects.size()) +
+           " from the left, " + Distance(*objects[i]);
+  }
+  return {};
 }
 
 ConsoleInput Unknown(const std::string& line, const msg::Query* query) {
@@ -60,11 +87,26 @@ ConsoleInput ParseLine(const std::string& line, const msg::Query* query) {
   return Unknown(line, query);
 }
 
-std::string RenderQuestion(const msg::Query& query, bool bold) {
+std::string RenderScene(const msg::Scene& scene) {
+  if (scene.objects.empty()) return "Nothing is seen on the table.\n";
+  std::string text = "\nOn the table, from left to right:\n";
+  int number = 0;
+  for (const auto* object : FromLeft(scene)) {
+    text += "  " + std::to_string(++number) + ". " + object->category +
+            (object->ask_user ? "? " : " ") + "(" + Distance(*object) + ")\n";
+  }
+  return text;
+}
+
+std::string RenderQuestion(const msg::Query& query, const msg::Scene* scene, bool bold) {
   std::string text = "\nQuestion " + std::to_string(query.questions_asked + 1);
   const auto left = std::lround(query.expected_questions - 1);
   if (left >= 1) text += ", about " + std::to_string(left) + " more";
   text += bold ? "\n\n  \x1b[1m" + query.text + "\x1b[0m\n\n" : "\n\n  " + query.text + "\n\n";
+  if (scene != nullptr && query.kind == msg::QueryKind::kWhatIsIt && !query.objects.empty()) {
+    const std::string where = Whereabouts(*scene, query.objects.front().object_id);
+    if (!where.empty()) text += "  (" + where + ")\n\n";
+  }
   if (!IsYesNo(query)) {
     for (size_t i = 0; i < query.options.size(); ++i) {
       text += "  " + std::to_string(i + 1) + "  " + query.options[i].text + "\n";

@@ -20,8 +20,12 @@ struct ConsoleInput {
 /// empty line is kNothing. `query` is the question that stands, or null.
 ConsoleInput ParseLine(const std::string& line, const msg::Query* query);
 
-/// Question, options and what may be typed, ready to print. `bold`: with terminal escapes.
-std::string RenderQuestion(const msg::Query& query, bool bold);
+/// Question, options and what may be typed, ready to print. `bold`: with terminal escapes. `scene`,
+/// or null, tells where an object stands that has no name yet.
+std::string RenderQuestion(const msg::Query& query, const msg::Scene* scene, bool bold);
+
+/// What is on the table, from left to right; for who cannot see the objects pointed out.
+std::string RenderScene(const msg::Scene& scene);
 
 /// A line for an event of the conversation; empty where nothing is to be said.
 std::string RenderSession(const msg::Session& event);

@@ -59,7 +59,8 @@ class ConsoleFrontEnd final : public FrontEnd {
     query_ = query;
     answered_ = false;
     between_ = false;
-    Print(RenderQuestion(query, terminal_out_));
+    if (scene_ && std::exchange(describe_, false)) Print(RenderScene(*scene_));
+    Print(RenderQuestion(query, scene_ ? &*scene_ : nullptr, terminal_out_));
     UseLines();
   }
 
@@ -67,12 +68,14 @@ class ConsoleFrontEnd final : public FrontEnd {
 
   void ShowSession(const msg::Session& event) override {
     if (const std::string text = RenderSession(event); !text.empty()) Print(text + "\n");
-    if (event.kind == msg::SessionKind::kBegun) in_session_ = true;
+    if (event.kind == msg::SessionKind::kBegun) in_session_ = describe_ = true;
     const bool over = event.kind == msg::SessionKind::kConfirmed ||
                       event.kind == msg::SessionKind::kAbandoned ||
                       event.kind == msg::SessionKind::kIdle;
     if (over && std::exchange(in_session_, false)) AfterSession();
   }
+
+  void ShowScene(const msg::Scene& scene) override { scene_ = scene; }
 
   void ShowNotice(const std::string& text) override { Print(text + "\n"); }
 
@@ -152,7 +155,7 @@ class ConsoleFrontEnd final : public FrontEnd {
     using Request = msg::SessionKind;
     switch (input.kind) {
       case Kind::kOption:
-        if (answered_) return Print("That is answered already; u takes it back.\n");
+        if (answered_) return Print("That is answered already; u takes it back.\n> ");
         answered_ = true;
         return setup_.sink.Answer(query_->id, OneHot(input.option, query_->options.size()));
       case Kind::kUndo:
@@ -171,7 +174,7 @@ class ConsoleFrontEnd final : public FrontEnd {
         if (between_) NewSession();
         return;
       case Kind::kUnknown:
-        return Print(input.complaint + "\n");
+        return Print(input.complaint + "\n> ");
     }
   }
 
@@ -203,6 +206,8 @@ class ConsoleFrontEnd final : public FrontEnd {
   std::optional<RunLoop::TimerId> poll_;
   std::string buffer_;             // of the line that is being typed
   std::deque<std::string> lines_;  // not used yet
+  std::optional<msg::Scene> scene_;
+  bool describe_ = false;  // the table, with the next question
   std::optional<msg::Query> query_;
   bool answered_ = false;
   bool in_session_ = false;

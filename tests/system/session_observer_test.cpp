@@ -14,6 +14,7 @@ namespace {
 
 msg::Query Ask(int64_t id, msg::QueryKind kind = msg::QueryKind::kFull) {
   msg::Query query;
+  query.utime = 2000 * id;
   query.id = id;
   query.session_id = "s1";
   query.user = "ann";
@@ -25,6 +26,7 @@ msg::Query Ask(int64_t id, msg::QueryKind kind = msg::QueryKind::kFull) {
 
 msg::Answer Say(int64_t id, bool yes) {
   msg::Answer answer;
+  answer.utime = 2000 * id + 500;
   answer.query_id = id;
   answer.session_id = "s1";
   answer.likelihoods = {yes ? 1.0 : 0.0, yes ? 0.0 : 1.0};
@@ -75,7 +77,7 @@ TEST_F(SessionObserverTest, CountsEachAnswerOnceHoweverOftenItIsRepeated) {
   EXPECT_EQ(record.CategoryQuestions(), 1);
   EXPECT_EQ(record.answers[0].answer, "No");
   EXPECT_EQ(record.answers[1].question, "question 2");
-  EXPECT_EQ(record.answer_to_query_ms, std::vector<double>{2.0});
+  EXPECT_EQ(record.answer_to_query_ms, std::vector<double>{1.5});
   EXPECT_EQ(record.requested, 1000);
   EXPECT_EQ(record.first_query, 5000);
   EXPECT_EQ(record.ended, 11'000);

@@ -66,14 +66,34 @@ TEST(ConsoleText, SaysWhatMayBeTypedInstead) {
 }
 
 TEST(ConsoleText, ShowsQuestionProgressAndOptions) {
-  const auto text = RenderQuestion(YesNo(), false);
+  const auto text = RenderQuestion(YesNo(), nullptr, false);
   EXPECT_THAT(text, HasSubstr("Question 3, about 2 more"));
   EXPECT_THAT(text, HasSubstr("Open the carton?"));
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
-  const auto list = RenderQuestion(WhatIsIt(), true);
+  const auto list = RenderQuestion(WhatIsIt(), nullptr, true);
   EXPECT_THAT(list, HasSubstr("2  a tin"));
   EXPECT_THAT(list, Not(HasSubstr("more")));
   EXPECT_THAT(list, HasSubstr("\x1b[1mWhat is this?"));
+}
+
+TEST(ConsoleText, TellsWhereTheObjectStandsThatHasNoName) {
+  msg::Scene scene;
+  for (const double x : {0.3, -0.2, 0.0}) {
+    msg::SceneObject object;
+    object.id = static_cast<int>(scene.objects.size()) + 1;
+    object.category = "Box";
+    object.ask_user = x == 0;
+    object.centroid_W = {x, 0.4, 0.1};
+    scene.objects.push_back(object);
+  }
+  auto query = WhatIsIt();
+  query.kind = msg::QueryKind::kWhatIsIt;
+  query.objects = {{1, "Unknown", 1}};
+  EXPECT_THAT(RenderQuestion(query, &scene, false),
+              HasSubstr("number 3 of 3 from the left, 50 cm away"));
+  query.objects = {{9, "Unknown", 1}};
+  EXPECT_THAT(RenderQuestion(query, &scene, false), Not(HasSubstr("from the left")));
+  EXPECT_THAT(RenderScene(scene), HasSubstr("2. Box? (40 cm away)\n  3. Box (50 cm away)"));
 }
 
 TEST(ConsoleText, TellsWhatASessionWaitsForAndHowItEnds) {

@@ -79,14 +79,10 @@ class Demo {
 
   /// Capture tells what really stands on the table, where anybody knows.
   Status FindOutWhatToWant() {
-    const auto spec = TruthSpec(fleet_);
-    auto capture = ChildProcess::Start(spec);
-    if (!capture) return capture.error();
-    const auto exit = capture->Wait(kTruthPatience_ms);
-    if (!exit || exit->code != 0 || exit->signal != 0) return Error{LastLine(spec.log_file)};
-    auto truth = ReadSceneTruth(fleet_.TruthFile());
-    if (!truth) return truth.error();
-    truth_ = *std::move(truth);
+    // Of a folder of images nobody knows it.
+    if (!std::filesystem::is_directory(options_.input)) {
+      if (auto known = AskCapture(); !known) return known;
+    }
     if (options_.want.empty() && !truth_.known) {
       return Error{"--input " + options_.input +
                    ": comes without ground truth; say what is wanted by --want ACTION:CATEGORY"};
@@ -95,6 +91,18 @@ class Demo {
         options_.want.empty() ? catalogue_.Suggest(truth_) : catalogue_.ParseWant(options_.want);
     if (!want) return want.error();
     want_ = *std::move(want);
+    return {};
+  }
+
+  Status AskCapture() {
+    const auto spec = TruthSpec(fleet_);
+    auto capture = ChildProcess::Start(spec);
+    if (!capture) return capture.error();
+    const auto exit = capture->Wait(kTruthPatience_ms);
+    if (!exit || exit->code != 0 || exit->signal != 0) return Error{LastLine(spec.log_file)};
+    auto truth = ReadSceneTruth(fleet_.TruthFile());
+    if (!truth) return truth.error();
+    truth_ = *std::move(truth);
     return {};
   }
 

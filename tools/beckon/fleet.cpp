@@ -54,9 +54,11 @@ ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::string& front_end
   if (config.sessions > 0)
     args.insert(args.end(), {"--exit-after-sessions", std::to_string(config.sessions)});
   if (front_end == "simulated") {
-    args.insert(args.end(), {"--want", want, "--truth", config.TruthFile(), "--seed",
-                             std::to_string(config.seed), "--think", std::to_string(config.think_s),
-                             "--flip", std::to_string(config.flip)});
+    args.insert(args.end(),
+                {"--want", want, "--seed", std::to_string(config.seed), "--think",
+                 std::to_string(config.think_s), "--flip", std::to_string(config.flip)});
+    if (std::filesystem::exists(config.TruthFile()))
+      args.insert(args.end(), {"--truth", config.TruthFile()});
   }
   auto spec = Service(config, "ui_bridge", "beckon-ui-bridge", std::move(args));
   spec.terminal = terminal;

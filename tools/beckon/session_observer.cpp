@@ -52,8 +52,9 @@ void SessionObserver::OnQuery(const msg::Query& query, Utime now) {
   ++questions_;
   last_news_ = now;
   if (!running->record.first_query) running->record.first_query = now;
-  if (const auto since = std::exchange(running->answered_at, std::nullopt)) {
-    running->record.answer_to_query_ms.push_back(static_cast<double>(now - *since) * 1e-3);
+  if (const auto since = std::exchange(running->answered_at, std::nullopt);
+      since && query.utime >= *since) {
+    running->record.answer_to_query_ms.push_back(static_cast<double>(query.utime - *since) * 1e-3);
   }
 }
 
@@ -66,7 +67,7 @@ void SessionObserver::OnAnswer(const msg::Answer& answer, Utime now) {
     return;
   if (!running.answered.insert(answer.query_id).second) return;
   last_news_ = now;
-  running.answered_at = now;
+  running.answered_at = answer.utime;
   const auto likeliest = std::ranges::max_element(answer.likelihoods) - answer.likelihoods.begin();
   running.record.answers.push_back({answer.query_id, query->second.kind, query->second.text,
                                     query->second.options[static_cast<size_t>(likeliest)].text});

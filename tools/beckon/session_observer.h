@@ -20,7 +20,8 @@ struct GivenAnswer {
   std::string answer;  // the likeliest option's words
 };
 
-/// One conversation. Times are of when messages were heard.
+/// One conversation. Times are of when messages were heard, but for answer_to_query_ms, which goes
+/// by their own stamps.
 struct SessionRecord {
   int number = 0;  // from 1, in the order of their ends
   std::string session_id;
@@ -58,7 +59,7 @@ class SessionObserver {
     SessionRecord record;
     std::map<int64_t, msg::Query> queries;
     std::set<int64_t> answered;
-    std::optional<Utime> answered_at;
+    std::optional<Utime> answered_at;  // stamp of the latest answer
   };
 
   Running* Find(const std::string& session_id, Utime now);
