@@ -1,29 +1,23 @@
 // One pass over the pixels with a hash table of voxels.
 #include "services/perception/voxel_grid.h"
 
-#include <bit>
 #include <cmath>
 
 namespace beckon::perception {
 namespace {
 
-/// Open addressing from a voxel's key to its index; the keys are never removed.
+/// Open addressing from a voxel's key to its index; keys are never removed.
 class VoxelTable {
  public:
-  explicit VoxelTable(size_t most)
-      : slots_(std::bit_ceil(2 * most + 2)), mask_(slots_.size() - 1) {}
+  VoxelTable() : slots_(1 << 17) {}
 
-  /// The index of `key`, or `next` after having taken it in.
-  uint32_t FindOrAdd(uint64_t key, uint32_t next) {
-    uint64_t at = (key * 0x9E3779B97F4A7C15ull) >> 20;
-    for (;; ++at) {
-      Slot& slot = slots_[at & mask_];
-      if (slot.index == VoxelGrid::kNone) {
-        slot = {key, next};
-        return next;
-      }
-      if (slot.key == key) return slot.index;
-    }
+  /// The index of `key`, or the next free one after having taken it in.
+  uint32_t FindOrAdd(uint64_t key) {
+    Slot& slot = Find(key);
+    if (slot.index != VoxelGrid::kNone) return slot.index;
+    slot = {key, size_};
+    if (2 * ++size_ > slots_.size()) Grow();
+    return size_ - 1;
   }
 
  private:
@@ -31,8 +25,25 @@ class VoxelTable {
     uint64_t key = 0;
     uint32_t index = VoxelGrid::kNone;
   };
+
+  /// The slot of `key`, or the empty one where it belongs.
+  Slot& Find(uint64_t key) {
+    for (uint64_t at = (key * 0x9E3779B97F4A7C15ull) >> 20;; ++at) {
+      Slot& slot = slots_[at & (slots_.size() - 1)];  // the size is a power of two
+      if (slot.index == VoxelGrid::kNone || slot.key == key) return slot;
+    }
+  }
+
+  void Grow() {
+    std::vector<Slot> old(slots_.size() * 2);
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (slot.index != VoxelGrid::kNone) Find(slot.key) = slot;
+    }
+  }
+
   std::vector<Slot> slots_;
-  uint64_t mask_;
+  uint32_t size_ = 0;
 };
 
 /// 21 bits a coordinate: at 0.5 mm that is 1 km across.
@@ -50,7 +61,7 @@ VoxelGrid MakeVoxelGrid(const RgbdImage& image, double voxel_m, double min_range
                         double max_range_m) {
   VoxelGrid grid;
   grid.voxel_of_pixel.assign(image.depth_m.size(), VoxelGrid::kNone);
-  VoxelTable table(image.depth_m.size());
+  VoxelTable table;
   std::vector<uint32_t> counts;
   std::vector<Eigen::Vector3d> sums;
   uint64_t last_key = ~0ull;
@@ -63,7 +74,7 @@ VoxelGrid MakeVoxelGrid(const RgbdImage& image, double voxel_m, double min_range
       const Eigen::Vector3d p_C = image.Point(u, v);
       const uint64_t key = Key(p_C, 1 / voxel_m);
       if (key != last_key) {
-        voxel = table.FindOrAdd(key, static_cast<uint32_t>(sums.size()));
+        voxel = table.FindOrAdd(key);
         last_key = key;
         if (voxel == sums.size()) {
           sums.push_back(Eigen::Vector3d::Zero());
