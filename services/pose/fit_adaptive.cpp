@@ -20,7 +20,7 @@ struct Robust {
 };
 Robust Cauchy(double residual, double scale) {
   const double x = residual * residual / (scale * scale);
-  return {scale * scale * std::log1p(x), 1 / (1 + x)};
+  return {scale * scale * std::log(1 + x), 1 / (1 + x)};
 }
 
 // What does not change between the stages of one fit.
@@ -137,15 +137,24 @@ PointList EvenlySpread(const PointList& points, int count, double size_m) {
   return VoxelCentroids(points, voxel_m);
 }
 
-// Whether the lowest points are well above the table: the object's foot is hidden behind another
-// object, or the object stands on another, and how far down it goes is not known.
-bool FootIsUnseen(const PointList& points, const std::optional<Plane>& table, double gap_m) {
-  if (!table) return false;
+// Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
+// foot is hidden behind another object, or it stands on one, and how far down it goes is not known.
+bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Scene& scene,
+                  double gap_m) {
+  constexpr int kSamples = 150;
+  constexpr double kGrazing = 0.14;  // sine of the angle below which cameras see little
+  if (!scene.table) return false;
   std::vector<double> heights;
-  for (const auto& p : points) heights.push_back(table->Distance(p));
+  for (const auto& p : points) heights.push_back(scene.table->Distance(p));
   const auto low = heights.begin() + static_cast<long>(heights.size() / 50);
   std::nth_element(heights.begin(), low, heights.end());
-  return *low > gap_m;
+  for (const Eigen::Vector3d& p : SampleSurface(shape, kSamples)) {
+    if (scene.table->Distance(p) > *low - gap_m) continue;
+    const Eigen::Vector3d normal_F =
+        shape.X_FO.linear() * NormalAt(shape, shape.X_FO.inverse() * p);
+    if (normal_F.dot((p - scene.viewpoint).normalized()) < -kGrazing) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -193,7 +202,7 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   const bool other_shape = MeanRadialDistance(fits[1].shape, fine) <
                                kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
                            ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
-  outcome.ambiguous = other_shape || FootIsUnseen(fine, table_F, config.unseen_foot_m);
+  outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, fine, scene, config.unseen_foot_m);
   return outcome;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 struct VoxelHash {
   size_t operator()(const std::array<int64_t, 3>& v) const {
-    return static_cast<size_t>((v[0] * 73856093) ^ (v[1] * 19349663) ^ (v[2] * 83492791));
+    const auto mix = [](int64_t i, uint64_t prime) { return static_cast<uint64_t>(i) * prime; };
+    return mix(v[0], 73856093) ^ mix(v[1], 19349663) ^ mix(v[2], 83492791);
   }
 };
 
