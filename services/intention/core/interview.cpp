@@ -54,7 +54,7 @@ std::vector<double> Interview::ThroughErrors(const std::vector<double>& likeliho
 
 void Interview::Answer(const std::vector<double>& likelihoods, const std::string& device) {
   if (asked_object_ >= 0) {
-    steps_.push_back(WhatIsIt{asked_object_, ThroughErrors(likelihoods, device)});
+    steps_.emplace_back(WhatIsIt{asked_object_, ThroughErrors(likelihoods, device)});
   } else {
     steps_.push_back(YesNo{question_, {likelihoods[0], likelihoods[1], Errors(device).rates}});
   }
@@ -68,7 +68,7 @@ void Interview::NoneOfThese(const std::string& device) {
     last.back() = 1;
     return Answer(last, device);
   }
-  steps_.push_back(RefusedAll{});
+  steps_.emplace_back(std::in_place_type<RefusedAll>);
   Recompute();
 }
 
