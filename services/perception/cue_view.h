@@ -16,7 +16,7 @@ struct CueView {
   static constexpr int kMaxPoints = 1000;
   static constexpr float kVoxel_m = 0.005F;  // larger where more than kMaxPoints would remain
   static constexpr float kNeighbourRadius_m = 0.03F;
-  static constexpr float kNormalRadius_m = 0.015F;
+  static constexpr float kNormalRadius_m = 0.02F;
 
   const ObjectView& object;
   int box_u = 0, box_v = 0, box_width = 0, box_height = 0;  // px, of the mask in the image

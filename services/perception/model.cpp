@@ -61,7 +61,27 @@ Status Validate(const Model& model) {
 }
 
 std::vector<float> Decide(const Model& model, const std::vector<std::vector<float>>& by_cue) {
-  return ApplyTemperature(model.decider.Probabilities(StackFeatures(by_cue)), model.temperature);
+  return ApplyTemperature(Blend(model.decider.Probabilities(StackFeatures(by_cue)), by_cue),
+                          model.temperature);
+}
+
+std::vector<float> Blend(const std::vector<float>& decided,
+                         const std::vector<std::vector<float>>& by_cue) {
+  constexpr double kDoubt = 0.01;             // no cue rules a category out on its own
+  constexpr double kDeciderWeight = 1.0 / 3;  // chosen on views of meshes, flat from 0.2 to 0.45
+  std::vector<double> product(decided.size());
+  double sum = 0;
+  for (size_t c = 0; c < decided.size(); ++c) {
+    double cues = 0;
+    for (const auto& p : by_cue) cues += std::log(static_cast<double>(p[c]) + kDoubt);
+    const double own = std::log(static_cast<double>(decided[c]) + 0.1 * kDoubt);
+    product[c] = std::exp(kDeciderWeight * own +
+                          (1 - kDeciderWeight) * cues / static_cast<double>(by_cue.size()));
+    sum += product[c];
+  }
+  std::vector<float> out;
+  for (const double p : product) out.push_back(static_cast<float>(p / sum));
+  return out;
 }
 
 Features StackFeatures(const std::vector<std::vector<float>>& by_cue) {

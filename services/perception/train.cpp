@@ -174,12 +174,16 @@ Result<TrainOutcome> Trainer::Finish(const std::function<void(const std::string&
   for (const auto& held_out : out.held_out) set.features.push_back(StackFeatures(held_out.by_cue));
   TrainedSvm decider = TrainSvm(set, {s.config.decider_cost, s.config.decider_gamma_scale});
   out.model.decider = std::move(decider.classifier);
+  std::vector<std::vector<float>> blended;
+  for (size_t i = 0; i < out.held_out.size(); ++i) {
+    blended.push_back(Blend(decider.out_of_fold[i], out.held_out[i].by_cue));
+  }
   out.model.temperature =
-      static_cast<float>(s.config.caution * FitTemperature(decider.out_of_fold, set.labels));
+      static_cast<float>(s.config.caution) * FitTemperature(blended, set.labels);
   for (size_t i = 0; i < out.held_out.size(); ++i) {
     HeldOutPrediction& held_out = out.held_out[i];
     held_out.label = set.labels[i];
-    held_out.probabilities = ApplyTemperature(decider.out_of_fold[i], out.model.temperature);
+    held_out.probabilities = ApplyTemperature(blended[i], out.model.temperature);
     held_out.confidence = RenyiConfidence(held_out.probabilities);
   }
   out.model.threshold = ChooseThreshold(Judge(out.held_out), s.config.target_accuracy);

@@ -22,12 +22,12 @@ struct TrainConfig {
   int vocabulary_views = 400;     // views, drawn at random, that vocabularies are learnt from
   int descriptors_per_view = 60;  // of them, at most, in a vocabulary's samples
   int kmeans_iterations = 12;
-  double cost = 10;         // C of the cues' machines
+  double cost = 4;          // C of the cues' machines
   double gamma_scale = 1;   // their gamma times the median squared distance
   double decider_cost = 2;  // of the second stage
   double decider_gamma_scale = 0.5;
   double caution = 1.5;  // factor on the fitted temperature: the world is harder than a rendering
-  double target_accuracy = 0.97;  // of what is answered without asking; decides the threshold
+  double target_accuracy = 0.98;  // of what is answered without asking; decides the threshold
 };
 
 /// Status of a configuration a person gave.

@@ -61,7 +61,7 @@ float FitTemperature(const std::vector<std::vector<float>>& probabilities,
     return sum;
   };
   // Golden section: the loss has one minimum in the temperature's logarithm.
-  double low = std::log(0.2), high = std::log(5.0);
+  double low = std::log(0.1), high = std::log(5.0);
   constexpr double kGolden = 0.6180339887498949;
   for (int i = 0; i < 30; ++i) {
     const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
