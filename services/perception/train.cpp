@@ -59,6 +59,8 @@ struct Trainer::State {
   std::vector<std::string> categories, instances;  // of each view
 
   Status CheckClasses(const std::set<std::string>& names) const;
+  /// The views' labels and folds, without features.
+  SvmTrainingSet LabelAndFold(const std::vector<std::string>& names) const;
 };
 
 Status Trainer::State::CheckClasses(const std::set<std::string>& names) const {
@@ -78,6 +80,21 @@ Status Trainer::State::CheckClasses(const std::set<std::string>& names) const {
     }
   }
   return {};
+}
+
+SvmTrainingSet Trainer::State::LabelAndFold(const std::vector<std::string>& names) const {
+  std::map<std::string, std::string> category_of;
+  for (size_t i = 0; i < instances.size(); ++i) category_of[instances[i]] = categories[i];
+  const std::map<std::string, int> folds = DealFolds(category_of, config.folds, config.seed);
+  SvmTrainingSet set;
+  set.classes = static_cast<int>(names.size());
+  set.fold_count = config.folds;
+  for (size_t i = 0; i < categories.size(); ++i) {
+    const auto at = std::lower_bound(names.begin(), names.end(), categories[i]);
+    set.labels.push_back(static_cast<int>(at - names.begin()));
+    set.folds.push_back(folds.at(instances[i]));
+  }
+  return set;
 }
 
 Trainer::Trainer(const TrainConfig& config) : state_(std::make_unique<State>()) {
@@ -146,18 +163,7 @@ Result<TrainOutcome> Trainer::Finish(const std::function<void(const std::string&
   TrainOutcome out;
   out.model.categories.assign(names.begin(), names.end());
   out.model.seed = s.config.seed;
-  std::map<std::string, std::string> category_of;
-  for (size_t i = 0; i < s.instances.size(); ++i) category_of[s.instances[i]] = s.categories[i];
-  const std::map<std::string, int> folds = DealFolds(category_of, s.config.folds, s.config.seed);
-
-  SvmTrainingSet set;
-  set.classes = static_cast<int>(names.size());
-  set.fold_count = s.config.folds;
-  for (size_t i = 0; i < s.categories.size(); ++i) {
-    const auto at = names.find(s.categories[i]);
-    set.labels.push_back(static_cast<int>(std::distance(names.begin(), at)));
-    set.folds.push_back(folds.at(s.instances[i]));
-  }
+  SvmTrainingSet set = s.LabelAndFold(out.model.categories);
   out.held_out.resize(s.categories.size());
   for (size_t c = 0; c < s.cues.size(); ++c) {
     progress("training the machines of " + s.cues[c]->name());

@@ -30,9 +30,6 @@ struct TrainConfig {
   double target_accuracy = 0.98;  // of what is answered without asking; decides the threshold
 };
 
-/// Status of a configuration a person gave.
-Status Validate(const TrainConfig& config);
-
 /// What cross-validation said of one view.
 struct HeldOutPrediction {
   int label = 0;                     // index into Model::categories

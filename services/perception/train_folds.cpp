@@ -1,4 +1,4 @@
-// Folds, calibration and checks of the training's configuration.
+// Folds and calibration.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -6,30 +6,6 @@
 #include "services/perception/train.h"
 
 namespace beckon::perception {
-
-Status Validate(const TrainConfig& config) {
-  const auto within = [](const char* name, double value, double low, double high) -> Status {
-    if (value >= low && value <= high) return {};
-    return Error{std::string(name) + ": expected " + std::to_string(low) + " to " +
-                 std::to_string(high) + ", found " + std::to_string(value)};
-  };
-  for (const Status& status :
-       {within("folds", config.folds, 2, 50), within("sift_words", config.sift_words, 2, 5000),
-        within("hog_words", config.hog_words, 2, 5000),
-        within("fpfh_words", config.fpfh_words, 2, 5000),
-        within("vocabulary_views", config.vocabulary_views, 1, 100000),
-        within("descriptors_per_view", config.descriptors_per_view, 1, 10000),
-        within("kmeans_iterations", config.kmeans_iterations, 1, 1000),
-        within("cost", config.cost, 1e-3, 1e6),
-        within("gamma_scale", config.gamma_scale, 1e-3, 1e3),
-        within("decider_cost", config.decider_cost, 1e-3, 1e6),
-        within("decider_gamma_scale", config.decider_gamma_scale, 1e-3, 1e3),
-        within("caution", config.caution, 0.1, 10),
-        within("target_accuracy", config.target_accuracy, 0, 1)}) {
-    if (!status) return status;
-  }
-  return {};
-}
 
 std::map<std::string, int> DealFolds(const std::map<std::string, std::string>& category_of_instance,
                                      int folds, uint64_t seed) {
