@@ -8,30 +8,47 @@
 namespace beckon {
 namespace {
 
-std::optional<TruthObject> ParseObject(const nlohmann::json& entry) {
-  if (!entry.is_object() || !entry.contains("category") || !entry["category"].is_string())
-    return {};
-  if (!entry.contains("centroid_C")) return {};
-  const auto& centroid = entry["centroid_C"];
-  if (!centroid.is_array() || centroid.size() != 3) return {};
-  TruthObject object;
-  object.category = entry["category"].get<std::string>();
+// How far beyond its box, or from its centroid, a segment still shows the object.
+constexpr double kBoxReach_m = 0.02;
+constexpr double kCentroidReach_m = 0.06;
+
+std::optional<Eigen::Vector3d> ParseVector(const nlohmann::json& entry, const char* key) {
+  if (!entry.is_object() || !entry.contains(key)) return {};
+  const auto& array = entry[key];
+  if (!array.is_array() || array.size() != 3) return {};
+  Eigen::Vector3d vector;
   for (int i = 0; i < 3; ++i) {
-    if (!centroid[i].is_number()) return {};
-    object.centroid_C[i] = centroid[i].get<double>();
+    if (!array[i].is_number()) return {};
+    vector[i] = array[i].get<double>();
   }
-  if (!object.centroid_C.allFinite()) return {};
+  if (!vector.allFinite()) return {};
+  return vector;
+}
+
+std::optional<TruthObject> ParseObject(const nlohmann::json& entry) {
+  const auto centroid = ParseVector(entry, "centroid_C");
+  if (!centroid || !entry.contains("category") || !entry["category"].is_string()) return {};
+  TruthObject object{
+      .category = entry["category"].get<std::string>(), .centroid_C = *centroid, .box_C = {}};
+  if (entry.contains("box_C")) {
+    const auto min = ParseVector(entry["box_C"], "min"), max = ParseVector(entry["box_C"], "max");
+    if (!min || !max) return {};
+    object.box_C = Eigen::AlignedBox3d(*min, *max);
+  }
   return object;
 }
 
 }  // namespace
 
-std::optional<size_t> SceneTruth::Nearest(const Eigen::Vector3d& p_C, double reach_m) const {
+std::optional<size_t> SceneTruth::At(const Eigen::Vector3d& p_C) const {
   std::optional<size_t> best;
-  double best_distance = reach_m;
+  double best_distance = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < objects.size(); ++i) {
     const double distance = (objects[i].centroid_C - p_C).norm();
-    if (distance <= best_distance) {
+    const bool shows = objects[i].box_C.isEmpty()
+                           ? distance <= kCentroidReach_m
+                           : objects[i].box_C.exteriorDistance(p_C) <= kBoxReach_m;
+    if (shows && distance < best_distance) {
       best_distance = distance;
       best = i;
     }

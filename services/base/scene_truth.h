@@ -13,7 +13,8 @@ namespace beckon {
 
 struct TruthObject {
   std::string category;
-  Eigen::Vector3d centroid_C = Eigen::Vector3d::Zero();  // m
+  Eigen::Vector3d centroid_C = Eigen::Vector3d::Zero();  // m, of the visible points
+  Eigen::AlignedBox3d box_C;  // m, of the visible points; empty where unknown
 };
 
 struct SceneTruth {
@@ -21,18 +22,17 @@ struct SceneTruth {
   bool known = false;
   std::vector<TruthObject> objects;
 
-  /// The object nearest to `p_C`, not farther than `reach_m`; none where there is none.
-  std::optional<size_t> Nearest(const Eigen::Vector3d& p_C, double reach_m) const;
+  /// The object that a segment with the centroid `p_C` shows (the whole of it, or a part where an
+  /// occluder or a rim cut it in two): its box holds `p_C` within 2 cm, or where it has none its
+  /// centroid lies within 6 cm; of several the one with the nearest centroid.
+  std::optional<size_t> At(const Eigen::Vector3d& p_C) const;
   /// Instance 1 of `category`: its object with the smallest horizontal distance from W's origin.
   std::optional<size_t> FirstInstance(const std::string& category, const Pose& X_WC) const;
 };
 
-/// How far a segmented object's centroid may lie from its truth's: visible points against visible
-/// points.
-inline constexpr double kTruthReach_m = 0.06;
-
-/// Reads {"objects": [{"category": "Box", "centroid_C": [x, y, z], ..}, ..] | null}; other keys are
-/// left alone. Fails on an unreadable file, text that is not such JSON, and non-finite positions.
+/// Reads {"objects": [{"category": "Box", "centroid_C": [x, y, z], ..}, ..] | null}, with an
+/// optional "box_C": {"min": [x, y, z], "max": [..]} an object; other keys are left alone. Fails on
+/// an unreadable file, text that is not such JSON, and non-finite positions.
 Result<SceneTruth> ReadSceneTruth(const std::string& path);
 
 }  // namespace beckon

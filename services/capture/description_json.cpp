@@ -45,6 +45,7 @@ SceneDescription FromJson(const Json& json) {
     object.label = entry.at("label").get<int>();
     object.category = entry.at("category").get<std::string>();
     object.centroid_C = ToVector(entry.at("centroid_C"));
+    object.box_C = {ToVector(entry.at("box_C").at("min")), ToVector(entry.at("box_C").at("max"))};
     object.visible_points = entry.at("visible_points").get<int>();
     object.X_CO = ToPose(entry.at("X_CO"));
     object.X_WO = ToPose(entry.at("X_WO"));
@@ -77,12 +78,15 @@ std::string ToJson(const SceneDescription& description) {
   json["objects"] = nullptr;
   if (description.known) json["objects"] = Json::array();
   for (const DescribedObject& object : description.objects) {
-    json["objects"].push_back({{"label", object.label},
-                               {"category", object.category},
-                               {"centroid_C", FromVector(object.centroid_C)},
-                               {"visible_points", object.visible_points},
-                               {"X_CO", FromPose(object.X_CO)},
-                               {"X_WO", FromPose(object.X_WO)}});
+    json["objects"].push_back(
+        {{"label", object.label},
+         {"category", object.category},
+         {"centroid_C", FromVector(object.centroid_C)},
+         {"box_C",
+          {{"min", FromVector(object.box_C.min())}, {"max", FromVector(object.box_C.max())}}},
+         {"visible_points", object.visible_points},
+         {"X_CO", FromPose(object.X_CO)},
+         {"X_WO", FromPose(object.X_WO)}});
   }
   return json.dump(1) + "\n";
 }

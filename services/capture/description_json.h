@@ -9,8 +9,8 @@
 namespace beckon::capture {
 
 /// {"table": {"normal", "offset_m"} | null, "intrinsics": {"fx", ..}, "objects": [{"label",
-/// "category", "centroid_C", "visible_points", "X_CO": {"position", "rotation_wxyz"} | null,
-/// "X_WO": .. | null}] | null}. Metres, frame C.
+/// "category", "centroid_C", "box_C": {"min", "max"}, "visible_points", "X_CO": {"position",
+/// "rotation_wxyz"} | null, "X_WO": .. | null}] | null}. Metres, frame C.
 std::string ToJson(const SceneDescription& description);
 
 /// The reverse, of files written so; fails on anything else.

@@ -7,6 +7,7 @@ std::vector<DescribedObject> DescribeLabels(const RgbdImage& image,
                                             const std::map<int, std::string>& categories) {
   struct Sum {
     Eigen::Vector3d points = Eigen::Vector3d::Zero();
+    Eigen::AlignedBox3d box;
     int n = 0;
   };
   std::map<int, Sum> sums;
@@ -15,7 +16,9 @@ std::vector<DescribedObject> DescribeLabels(const RgbdImage& image,
       const auto label = static_cast<int>(labels[image.Index(u, v)]);
       if (label == 0 || !image.HasDepth(u, v) || !categories.contains(label)) continue;
       Sum& sum = sums[label];
-      sum.points += image.Point(u, v);
+      const Eigen::Vector3d p_C = image.Point(u, v);
+      sum.points += p_C;
+      sum.box.extend(p_C);
       ++sum.n;
     }
   }
@@ -25,6 +28,7 @@ std::vector<DescribedObject> DescribeLabels(const RgbdImage& image,
     object.label = label;
     object.category = categories.at(label);
     object.centroid_C = sum.points / sum.n;
+    object.box_C = sum.box;
     object.visible_points = sum.n;
     objects.push_back(object);
   }

@@ -94,7 +94,7 @@ std::optional<int> SimulatedUser::ChooseObject(const msg::Scene& scene) const {
 std::string SimulatedUser::TrueCategory(int object_id) const {
   const auto* object = Find(*scene_, object_id);
   if (object == nullptr) return {};
-  const auto match = truth_.Nearest(scene_->X_WC.inverse() * object->centroid_W, kTruthReach_m);
+  const auto match = truth_.At(scene_->X_WC.inverse() * object->centroid_W);
   return match ? truth_.objects[*match].category : std::string();
 }
 

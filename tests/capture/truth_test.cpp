@@ -62,8 +62,9 @@ TEST_F(TruthTest, JsonHoldsEverything) {
   d.known = true;
   d.table_C = Plane{{0, -0.6, -0.8}, 0.7};
   d.intrinsics = {500, 510, 300, 200};
-  DescribedObject object{
-      3, "Mug", {0.1, 0.2, 0.9}, 1234, Pose(Eigen::Translation3d(1, 2, 3)), std::nullopt};
+  DescribedObject object{.label = 3, .category = "Mug", .centroid_C = {0.1, 0.2, 0.9}};
+  object.box_C = {Eigen::Vector3d(0, 0.1, 0.8), Eigen::Vector3d(0.2, 0.3, 1)};
+  object.X_CO = Pose(Eigen::Translation3d(1, 2, 3));
   d.objects.push_back(object);
   ASSERT_TRUE(WriteText(Path("a.json"), ToJson(d)).ok());
   const auto again = ReadDescription(Path("a.json"));

@@ -42,14 +42,28 @@ TEST(SceneTruth, RefusesWhatIsNoTruth) {
   EXPECT_FALSE(ReadSceneTruth("/nowhere/truth.json"));
 }
 
-TEST(SceneTruth, FindsTheNearestWithinReachAndTheFirstInstance) {
-  SceneTruth truth{true, {{"Box", {0, 0, 2}}, {"Box", {0.1, 0, 1}}, {"Cup", {0, 0, 0.5}}}};
-  EXPECT_EQ(truth.Nearest({0, 0, 1.97}, 0.06), 0u);
-  EXPECT_FALSE(truth.Nearest({0, 0, 1.5}, 0.06));
+TEST(SceneTruth, FindsWhatASegmentShowsAndTheFirstInstance) {
+  SceneTruth truth{true,
+                   {{"Box", {0, 0, 2}, {}}, {"Box", {0.1, 0, 1}, {}}, {"Cup", {0, 0, 0.5}, {}}}};
+  EXPECT_EQ(truth.At({0, 0, 1.97}), 0u);
+  EXPECT_FALSE(truth.At({0, 0, 1.5}));
   Pose X_WC = Pose::Identity();  // W's y along the camera's z
   X_WC.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   EXPECT_EQ(truth.FirstInstance("Box", X_WC), 1u);
   EXPECT_FALSE(truth.FirstInstance("Tub", X_WC));
+}
+
+TEST(SceneTruth, APartOfAnOccludedObjectIsThatObject) {
+  // A tube behind a box: both ends of the tube are seen, its middle is not.
+  const auto truth = Read(R"({"objects": [
+      {"category": "Box", "centroid_C": [0, 0, 0.67], "box_C": {"min": [-0.04, -0.1, 0.64], "max": [0.04, 0.1, 0.7]}},
+      {"category": "Tube", "centroid_C": [0, 0, 0.76], "box_C": {"min": [-0.14, -0.03, 0.73], "max": [0.14, 0.03, 0.79]}}
+  ]})");
+  ASSERT_TRUE(truth) << truth.error().message;
+  EXPECT_EQ(truth->At({-0.09, 0, 0.76}), 1u);
+  EXPECT_EQ(truth->At({0.09, 0, 0.76}), 1u);
+  EXPECT_EQ(truth->At({0, 0, 0.67}), 0u);
+  EXPECT_FALSE(truth->At({0.3, 0, 0.76}));
 }
 
 }  // namespace

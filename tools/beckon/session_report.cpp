@@ -51,7 +51,7 @@ bool IsCorrect(const SessionRecord& record, const Want& want, const SceneTruth& 
   if (task.action != want.action || task.object.category != want.category) return false;
   if (!truth.known) return true;
   const auto meant = truth.FirstInstance(want.category, task.X_WC);
-  return meant && truth.Nearest(task.X_WC.inverse() * task.centroid_W, kTruthReach_m) == meant;
+  return meant && truth.At(task.X_WC.inverse() * task.centroid_W) == meant;
 }
 
 std::string ReportLine(const SessionRecord& record, const Want* want, const SceneTruth& truth) {
