@@ -1,11 +1,9 @@
 #include "services/ui_bridge/console_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <vector>
 
@@ -40,9 +38,7 @@ std::vector<const msg::SceneObject*> FromLeft(const msg::Scene& scene) {
 }
 
 std::string Distance(const msg::SceneObject& object) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.0f cm away", 100 * object.centroid_W.head<2>().norm());
-  return text.data();
+  return std::to_string(std::lround(100 * object.centroid_W.head<2>().norm())) + " cm away";
 }
 
 /// "number 3 of 7 from the left, 62 cm away"; empty where the scene has no such object.

@@ -56,8 +56,10 @@ class SimulatedFrontEnd final : public FrontEnd {
                       event.kind == msg::SessionKind::kAbandoned ||
                       event.kind == msg::SessionKind::kIdle;
     if (!over || !std::exchange(in_session_, false)) return;
-    if (event.kind == msg::SessionKind::kAbandoned)
+    const bool gave_up = std::exchange(gave_up_, false);
+    if (event.kind == msg::SessionKind::kAbandoned && !gave_up) {
       spdlog::warn("simulated user: no task: {}", event.text);
+    }
     user_.ForgetSession();
     if (++sessions_ >= config_.sessions) return setup_.sink.Finish();
     setup_.sink.Request(msg::SessionKind::kRequestStart);
@@ -121,6 +123,7 @@ class SimulatedFrontEnd final : public FrontEnd {
   void GiveUpSession(const std::string& reason) {
     spdlog::error("simulated user: wants {} {}: {}; the session is cancelled", config_.user.action,
                   config_.user.category, reason);
+    gave_up_ = true;
     setup_.sink.Request(msg::SessionKind::kRequestCancel);
   }
 
@@ -132,6 +135,7 @@ class SimulatedFrontEnd final : public FrontEnd {
   std::optional<RunLoop::TimerId> timer_;
   int looks_ = 0;
   bool in_session_ = false;
+  bool gave_up_ = false;  // of this session
   int sessions_ = 0;
 };
 

@@ -136,6 +136,8 @@ class Demo {
     }
     if (want_ && !IsCorrect(record, *want_, truth_) && failure_.empty()) {
       failure_ = Complaint(record, *want_);
+      // The simulated user's last word is why it gave up.
+      if (!record.task) failure_ += " " + LastLine(fleet_.run_dir + "/ui_bridge.log");
     }
     // The front end leaves by itself after its last session; a moment for it, then we end.
     if (fleet_.sessions > 0 && watch_.observer().ended() >= fleet_.sessions) {
