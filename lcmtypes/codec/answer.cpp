@@ -56,13 +56,6 @@ static Result<msg::Answer> FromWire(const answer_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Answer>::Encode(const msg::Answer& value) {
-  return codec::EncodeMessage<answer_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Answer> Codec<msg::Answer>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<answer_t, msg::Answer>(bytes, codec::Walk, codec::FromWire,
-                                                     codec::Check);
-}
+BECKON_DEFINE_CODEC(Answer, answer_t)
 
 }  // namespace beckon

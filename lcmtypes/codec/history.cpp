@@ -105,13 +105,6 @@ static Result<msg::History> FromWire(const history_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::History>::Encode(const msg::History& value) {
-  return codec::EncodeMessage<history_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::History> Codec<msg::History>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<history_t, msg::History>(bytes, codec::Walk, codec::FromWire,
-                                                       codec::Check);
-}
+BECKON_DEFINE_CODEC(History, history_t)
 
 }  // namespace beckon

@@ -71,13 +71,6 @@ static Result<msg::Interface> FromWire(const interface_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Interface>::Encode(const msg::Interface& value) {
-  return codec::EncodeMessage<interface_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Interface> Codec<msg::Interface>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<interface_t, msg::Interface>(bytes, codec::Walk, codec::FromWire,
-                                                           codec::Check);
-}
+BECKON_DEFINE_CODEC(Interface, interface_t)
 
 }  // namespace beckon

@@ -52,3 +52,13 @@ Result<T> DecodeMessage(std::span<const uint8_t> bytes, void (*walk)(Walker&, co
 }
 
 }  // namespace beckon::codec
+
+/// Codec<msg::Type> out of the four functions; for all but frames, which carry a checksum.
+#define BECKON_DEFINE_CODEC(Type, wire_t)                                               \
+  Result<std::vector<uint8_t>> Codec<msg::Type>::Encode(const msg::Type& value) {       \
+    return codec::EncodeMessage<wire_t>(value, codec::Check, codec::ToWire);            \
+  }                                                                                     \
+  Result<msg::Type> Codec<msg::Type>::Decode(std::span<const uint8_t> bytes) {          \
+    return codec::DecodeMessage<wire_t, msg::Type>(bytes, codec::Walk, codec::FromWire, \
+                                                   codec::Check);                       \
+  }

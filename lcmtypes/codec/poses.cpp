@@ -48,13 +48,6 @@ static Result<msg::Poses> FromWire(const poses_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Poses>::Encode(const msg::Poses& value) {
-  return codec::EncodeMessage<poses_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Poses> Codec<msg::Poses>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<poses_t, msg::Poses>(bytes, codec::Walk, codec::FromWire,
-                                                   codec::Check);
-}
+BECKON_DEFINE_CODEC(Poses, poses_t)
 
 }  // namespace beckon

@@ -150,13 +150,6 @@ static Result<msg::Query> FromWire(const query_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Query>::Encode(const msg::Query& value) {
-  return codec::EncodeMessage<query_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Query> Codec<msg::Query>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<query_t, msg::Query>(bytes, codec::Walk, codec::FromWire,
-                                                   codec::Check);
-}
+BECKON_DEFINE_CODEC(Query, query_t)
 
 }  // namespace beckon

@@ -197,13 +197,6 @@ static Result<msg::Scene> FromWire(const scene_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Scene>::Encode(const msg::Scene& value) {
-  return codec::EncodeMessage<scene_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Scene> Codec<msg::Scene>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<scene_t, msg::Scene>(bytes, codec::Walk, codec::FromWire,
-                                                   codec::Check);
-}
+BECKON_DEFINE_CODEC(Scene, scene_t)
 
 }  // namespace beckon

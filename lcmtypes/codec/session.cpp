@@ -78,13 +78,6 @@ static Result<msg::Session> FromWire(const session_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Session>::Encode(const msg::Session& value) {
-  return codec::EncodeMessage<session_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Session> Codec<msg::Session>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<session_t, msg::Session>(bytes, codec::Walk, codec::FromWire,
-                                                       codec::Check);
-}
+BECKON_DEFINE_CODEC(Session, session_t)
 
 }  // namespace beckon

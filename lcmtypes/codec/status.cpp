@@ -71,13 +71,6 @@ static Result<msg::Status> FromWire(const status_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Status>::Encode(const msg::Status& value) {
-  return codec::EncodeMessage<status_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Status> Codec<msg::Status>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<status_t, msg::Status>(bytes, codec::Walk, codec::FromWire,
-                                                     codec::Check);
-}
+BECKON_DEFINE_CODEC(Status, status_t)
 
 }  // namespace beckon

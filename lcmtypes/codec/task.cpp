@@ -91,12 +91,6 @@ static Result<msg::Task> FromWire(const task_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::Task>::Encode(const msg::Task& value) {
-  return codec::EncodeMessage<task_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::Task> Codec<msg::Task>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<task_t, msg::Task>(bytes, codec::Walk, codec::FromWire, codec::Check);
-}
+BECKON_DEFINE_CODEC(Task, task_t)
 
 }  // namespace beckon

@@ -47,13 +47,6 @@ static Result<msg::TaskStatus> FromWire(const task_status_t& wire) {
 
 }  // namespace codec
 
-Result<std::vector<uint8_t>> Codec<msg::TaskStatus>::Encode(const msg::TaskStatus& value) {
-  return codec::EncodeMessage<task_status_t>(value, codec::Check, codec::ToWire);
-}
-
-Result<msg::TaskStatus> Codec<msg::TaskStatus>::Decode(std::span<const uint8_t> bytes) {
-  return codec::DecodeMessage<task_status_t, msg::TaskStatus>(bytes, codec::Walk, codec::FromWire,
-                                                              codec::Check);
-}
+BECKON_DEFINE_CODEC(TaskStatus, task_status_t)
 
 }  // namespace beckon
