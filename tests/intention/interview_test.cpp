@@ -1,4 +1,6 @@
 // Objects in doubt, what is remembered of them, and what happens when every task was refused.
+#include <set>
+
 #include "tests/intention/conversation_fixture.h"
 
 namespace beckon::intention {
@@ -80,6 +82,125 @@ TEST_F(InterviewTest, NoneOfTheseMakesAnObjectUnknown) {
     desk.Answer(query, Desk::Honest(query, {"Drink", 1, "Mug"}, {}));
   }
   EXPECT_EQ(desk.events.back().text, "Drink from the mug.");
+}
+
+std::vector<std::string> Offered(const msg::Query& query) {
+  std::vector<std::string> categories;
+  for (const auto& option : query.options) categories.push_back(option.category);
+  return categories;
+}
+
+TEST_F(InterviewTest, OffersTheOtherCategoriesBeforeItGivesUp) {
+  desk.Announce("switch", 0, 12);
+  desk.Show(SceneOf({SceneObject(1, "Mug", 0, 0.4), Doubtful(2, 0.2, 0.5)}));
+  desk.Start();
+  desk.Answer(desk.queries.back(), 4);
+  EXPECT_NE(desk.queries.back().kind, msg::QueryKind::kWhatIsIt);  // the mug first
+  while (desk.queries.back().kind != msg::QueryKind::kWhatIsIt) {
+    ASSERT_EQ(desk.events.back().kind, Kind::kBegun);
+    desk.Answer(desk.queries.back(), 1);
+  }
+  // Tub has a probability, the others follow by name.
+  EXPECT_EQ(Offered(desk.queries.back()),
+            (std::vector<std::string>{"Tub", "Bottle", "Bowl", "Cup", "Mug", "SprayCan", "Tube",
+                                      "Unknown"}));
+  EXPECT_EQ(desk.queries.back().objects[0].object_id, 2);
+  desk.Answer(desk.queries.back(), 6);
+  EXPECT_EQ(desk.Converse({"Squeeze", 2, "Tube"}).text, "Squeeze the tube.");
+  ASSERT_EQ(memory.labels.size(), 1u);
+  EXPECT_EQ(memory.labels[0].category, "Tube");
+}
+
+TEST_F(InterviewTest, OffersTheOtherCategoriesAtOnceWhereNoKnownObjectIsLeft) {
+  Begin(SceneOf({Doubtful(2, 0.2, 0.5)}));
+  desk.Answer(desk.queries.back(), 4);
+  ASSERT_EQ(desk.queries.back().kind, msg::QueryKind::kWhatIsIt);
+  EXPECT_EQ(Offered(desk.queries.back()).front(), "Tub");
+  EXPECT_EQ(desk.queries.back().options.size(), 8u);  // all seven and none of them
+  EXPECT_EQ(desk.Converse({"Squeeze", 2, "Tube"}, {{2, "Tube"}}).text, "Squeeze the tube.");
+}
+
+TEST_F(InterviewTest, OffersNoMoreAtOnceThanTheInterfaceShows) {
+  desk.Announce("switch", 0, 4);
+  desk.Show(SceneOf({Doubtful(2, 0.2, 0.5)}));
+  desk.Start();
+  std::vector<size_t> sizes;
+  std::set<std::string> offered;
+  while (desk.events.back().kind == Kind::kBegun) {
+    const msg::Query query = desk.queries.back();
+    ASSERT_EQ(query.kind, msg::QueryKind::kWhatIsIt);
+    sizes.push_back(query.options.size());
+    for (size_t i = 0; i + 1 < query.options.size(); ++i)
+      EXPECT_TRUE(offered.insert(query.options[i].category).second) << "offered twice";
+    desk.Answer(query, query.options.size() - 1);
+  }
+  EXPECT_EQ(sizes, (std::vector<size_t>{4, 2, 4, 4, 2}));  // 3 + 1 at first, the other 7 later
+  EXPECT_EQ(offered.size(), 11u);
+  EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+  ASSERT_EQ(memory.labels.size(), 1u);
+  EXPECT_EQ(memory.labels[0].category, "Unknown");
+}
+
+TEST_F(InterviewTest, AnObjectOfRefusedCategoriesIsAskedAboutAgainOnlyBeforeGivingUp) {
+  const msg::Scene scene = SceneOf({SceneObject(1, "Mug", 0, 0.4), Doubtful(2, 0.2, 0.5)});
+  Begin(scene);
+  desk.Converse({"Drink", 1, "Mug"});  // not asked about the other thing but once
+  ASSERT_EQ(memory.labels.size(), 1u);
+  EXPECT_EQ(memory.labels[0].category, "Unknown");
+  desk.Announce("switch", 0, 12);
+  desk.Start("s2");
+  EXPECT_EQ(desk.queries.back().text, "Drink from the mug?");
+  desk.Request(Kind::kRequestNoneOfThese, "s2");
+  ASSERT_EQ(desk.queries.back().kind, msg::QueryKind::kWhatIsIt);
+  EXPECT_EQ(desk.queries.back().objects[0].object_id, 2);
+  EXPECT_EQ(desk.queries.back().options.size(), 12u);  // at once: the likeliest were refused before
+  EXPECT_EQ(desk.Converse({"Squeeze", 2, "Tube"}, {{2, "Tube"}}).text, "Squeeze the tube.");
+  EXPECT_EQ(memory.labels.back().category, "Tube");
+  desk.Start("s3");
+  EXPECT_EQ(desk.queries.back().text, "Squeeze the tube?");
+}
+
+TEST_F(InterviewTest, ATableOfUnknownObjectsIsAskedAboutInEverySession) {
+  const msg::Scene scene = SceneOf({Doubtful(2, 0.2, 0.5)});
+  for (const char* id : {"s1", "s2"}) {
+    desk.Clear();
+    Begin(scene, id);
+    int questions = 0;
+    for (; desk.events.back().kind == Kind::kBegun; ++questions)
+      desk.Answer(desk.queries.back(), desk.queries.back().options.size() - 1);
+    EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+    EXPECT_EQ(questions, 2);
+  }
+}
+
+TEST_F(InterviewTest, RechecksAConfidentErrorThroughAllCategories) {
+  Begin(SceneOf({SceneObject(1, "Mug", 0, 0.4), SceneObject(2, "Can", 0.2, 0.5, 0.6f)}));
+  const std::map<int, std::string> really = {{1, "Mug"}, {2, "SprayCan"}};
+  EXPECT_EQ(desk.Converse({"Grasp", 2, "SprayCan"}, really).text, "Grasp the spray can.");
+}
+
+TEST_F(InterviewTest, TasksThatWereRefusedAreNotAskedAgainWhenAnObjectBecomesUnknown) {
+  desk.Announce("switch", 0, 5);
+  desk.Show(SceneOf({SceneObject(1, "Mug", 0, 0.4, 0.9f), SceneObject(2, "Can", 0.2, 0.5, 0.6f),
+                     SceneObject(3, "Bowl", 0.4, 0.5, 0.9f)}));
+  desk.Start();
+  desk.Request(Kind::kRequestNoneOfThese);
+  const std::map<int, std::string> really = {{1, "Mug"}, {2, "SprayCan"}, {3, "Bowl"}};
+  const Wish wish{"Grasp", 2, "SprayCan"};
+  for (int i = 0; i < 3; ++i) {  // can tube bottle bowl, box carton cup mug, spray can tin tub
+    ASSERT_EQ(desk.queries.back().kind, msg::QueryKind::kWhatIsIt) << i;
+    EXPECT_EQ(desk.queries.back().objects[0].object_id, 2);
+    desk.Answer(desk.queries.back(), Desk::Honest(desk.queries.back(), wish, really));
+  }
+  EXPECT_EQ(desk.Converse(wish, really).text, "Grasp the spray can.");
+}
+
+TEST_F(InterviewTest, AnAnswerMeansWhatWasOfferedWhateverTheInterfaceBecomes) {
+  Begin(SceneOf({Doubtful(2, 0.2, 0.5)}));
+  desk.Answer(desk.queries.back(), 3);  // a can
+  desk.Announce("switch", 0, 2);
+  EXPECT_EQ(desk.Converse({"Drink", 2, "Can"}, {{2, "Can"}}).text, "Drink from the can.");
+  EXPECT_EQ(memory.labels[0].category, "Can");
 }
 
 TEST_F(InterviewTest, ASwitchWithTwoOptionsIsAskedOneCategoryAtATime) {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 
 #include "services/intention/core/answer_errors.h"
 
 namespace beckon::intention {
 namespace {
 
-/// Most categories offered for an object with probabilities.
-constexpr int kMostOffered = 4;
+/// Categories offered for an object in doubt before the known tasks are asked about.
+constexpr size_t kFirstOffers = 4;
 /// A choice is taken once it has this share of the likelihood.
 constexpr double kDecided = 0.9;
 constexpr char kNoneOfThese[] = "None of these";
@@ -54,7 +54,7 @@ std::vector<double> Interview::ThroughErrors(const std::vector<double>& likeliho
 
 void Interview::Answer(const std::vector<double>& likelihoods, const std::string& device) {
   if (asked_object_ >= 0) {
-    steps_.emplace_back(WhatIsIt{asked_object_, ThroughErrors(likelihoods, device)});
+    steps_.emplace_back(WhatIsIt{asked_object_, offer_, ThroughErrors(likelihoods, device)});
   } else {
     steps_.push_back(YesNo{question_, {likelihoods[0], likelihoods[1], Errors(device).rates}});
   }
@@ -114,8 +114,10 @@ void Interview::Recompute() {
 
 void Interview::Apply(const WhatIsIt& step) {
   Opinion& opinion = opinions_[step.object];
-  if (opinion.share.size() != step.likelihoods.size())
+  if (opinion.offered != step.offer || opinion.share.empty()) {
+    opinion.offered = step.offer;
     opinion.share.assign(step.likelihoods.size(), 1.0);
+  }
   double sum = 0;
   for (size_t i = 0; i < step.likelihoods.size(); ++i)
     sum += opinion.share[i] *= step.likelihoods[i];
@@ -124,62 +126,98 @@ void Interview::Apply(const WhatIsIt& step) {
   const auto best = std::max_element(opinion.share.begin(), opinion.share.end());
   if (*best < kDecided) return;
   const auto chosen = static_cast<size_t>(best - opinion.share.begin());
-  const auto offer = Offer(step.object);
   opinion.share.clear();
-  if (chosen < offer.size()) return Relabel(step.object, offer[chosen]);
-  opinion.refused += static_cast<int>(offer.size());
-  if (Offer(step.object).empty()) Relabel(step.object, -1);
+  if (chosen == step.offer.size()) return Refuse(step.object, step.offer);
+  opinion.settled = true;
+  Relabel(step.object, step.offer[chosen]);
+}
+
+void Interview::Refuse(int object, const std::vector<int>& categories) {
+  Opinion& opinion = opinions_[object];
+  opinion.refused.insert(opinion.refused.end(), categories.begin(), categories.end());
+  opinion.settled = Left(object).empty();
+  const bool was_refused = std::count(categories.begin(), categories.end(), opinion.category) > 0;
+  if (was_refused) Relabel(object, -1);
 }
 
 void Interview::Relabel(int object, int category) {
   Opinion& opinion = opinions_[object];
-  const bool changed = opinion.category != category;
+  if (opinion.category == category) return;
   opinion.category = category;
-  opinion.given = true;
-  if (!changed) return;
-  // Answers about what the object was taken for say nothing any more.
-  std::erase_if(evidence_, [object](const YesNo& step) {
-    return step.question.objects != kAny && (step.question.objects >> object & 1) != 0;
-  });
+  // Nothing can be done with an unknown object: what was refused stays refused.
+  if (category < 0) return;
+  // Answers about what the object was taken for say nothing of it any more. A no still speaks of
+  // the other objects in question.
+  const uint64_t others = ~(uint64_t{1} << object);
+  std::vector<YesNo> kept;
+  for (YesNo step : evidence_) {
+    const bool mentions = step.question.objects != kAny && (step.question.objects & ~others) != 0;
+    if (mentions) step.question.objects &= others;
+    const bool says_no = step.evidence.no > step.evidence.yes;
+    if (!mentions || (says_no && step.question.objects != 0)) kept.push_back(step);
+  }
+  evidence_ = std::move(kept);
   relabelled_at_ = evidence_.size();
   refused_all_ = false;
 }
 
-std::vector<int> Interview::Offer(int object) const {
+std::vector<int> Interview::Left(int object) const {
+  const auto& refused = opinions_[object].refused;
+  std::vector<int> left;
+  const auto add = [&](int category) {
+    if (category < 0 || std::count(refused.begin(), refused.end(), category) > 0) return;
+    if (std::count(left.begin(), left.end(), category) == 0) left.push_back(category);
+  };
+  for (const auto& p : input_.scene.objects[object].probabilities) {
+    add(affordances_.FindCategory(p.category));
+  }
+  for (int i = 0; i < static_cast<int>(affordances_.categories().size()); ++i) add(i);
+  return left;
+}
+
+size_t Interview::FirstOffers(int object) const {
   const auto& probabilities = input_.scene.objects[object].probabilities;
-  std::vector<int> categories;
-  for (const auto& p : probabilities) {
-    const int category = affordances_.FindCategory(p.category);
-    if (category >= 0 && categories.size() < kMostOffered) categories.push_back(category);
+  const bool has_opinion =
+      std::any_of(probabilities.begin(), probabilities.end(),
+                  [&](const auto& p) { return affordances_.FindCategory(p.category) >= 0; });
+  return has_opinion ? kFirstOffers : affordances_.categories().size();
+}
+
+std::vector<int> Interview::Offer(int object) const {
+  const Opinion& opinion = opinions_[object];
+  if (opinion.settled) return {};
+  std::vector<int> offer = Left(object);
+  size_t most = std::max(1, Device(input_.device).max_options - 1);
+  const size_t first = FirstOffers(object);
+  if (!opinion.remembered && opinion.refused.size() < first) {
+    most = std::min(most, first - opinion.refused.size());
   }
-  if (categories.empty()) {
-    categories.resize(affordances_.categories().size());
-    std::iota(categories.begin(), categories.end(), 0);
-  }
-  const auto skip = std::min<size_t>(opinions_[object].refused, categories.size());
-  categories.erase(categories.begin(), categories.begin() + static_cast<std::ptrdiff_t>(skip));
-  const auto most = static_cast<size_t>(std::max(1, Device(input_.device).max_options - 1));
-  if (categories.size() > most) categories.resize(most);
-  return categories;
+  if (offer.size() > most) offer.resize(most);
+  return offer;
 }
 
 int Interview::NextInDoubt() const {
   int next = -1;
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
-    if (!opinions_[i].in_doubt || opinions_[i].given) continue;
+    const Opinion& opinion = opinions_[i];
+    if (!opinion.in_doubt || opinion.settled || opinion.refused.size() >= FirstOffers(i)) continue;
     if (next < 0 || input_.scene.objects[i].confidence < input_.scene.objects[next].confidence)
       next = i;
   }
   return next;
 }
 
+/// Unknown objects first, for they are sure to be something else than what was refused; then those
+/// that perception named, the least sure first; then those that the user named.
 int Interview::NextToRecheck() const {
   int next = -1;
   const auto later = [&](int i) {
-    return std::pair(opinions_[i].remembered, input_.scene.objects[i].confidence);
+    const Opinion& opinion = opinions_[i];
+    return std::tuple(opinion.category >= 0, opinion.remembered,
+                      input_.scene.objects[i].confidence);
   };
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
-    if (opinions_[i].given) continue;
+    if (opinions_[i].settled) continue;
     if (next < 0 || later(i) < later(next)) next = i;
   }
   return next;
@@ -286,7 +324,8 @@ void Interview::AskObject(int object) {
   query.any_object = false;
   query.objects = {Ref(object)};
   const int id = input_.scene.objects[object].id;
-  for (const int category : Offer(object)) {
+  offer_ = Offer(object);
+  for (const int category : offer_) {
     const std::string& name = affordances_.categories()[category].name;
     query.options.push_back({WithArticle(Noun(name)), name, "", {id}});
   }
@@ -311,8 +350,10 @@ std::vector<AnswerRecord> Interview::Answers() const {
 std::vector<GivenLabel> Interview::Labels() const {
   std::vector<GivenLabel> labels;
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
-    if (!opinions_[i].given) continue;
     const int category = opinions_[i].category;
+    // Refused so far is remembered as unknown: not asked about again before every known task is.
+    const bool refused = category < 0 && !opinions_[i].refused.empty();
+    if (!opinions_[i].settled && !refused) continue;
     labels.push_back(
         {i, category < 0 ? msg::kUnknownCategory : affordances_.categories()[category].name});
   }

@@ -52,7 +52,9 @@ struct GivenLabel {
   std::string category;
 };
 
-/// Categories of the scene that the affordances do not know count as "Unknown".
+/// Categories of the scene that the affordances do not know count as "Unknown". Objects in doubt
+/// are asked about first, the likeliest categories only. Where no known task is left, every object
+/// is asked about until it is named or all categories were refused, unknown ones first.
 class Interview {
  public:
   Interview(const Affordances& affordances, const Policy& policy, InterviewInput input);
@@ -84,6 +86,7 @@ class Interview {
   };
   struct WhatIsIt {
     int object;
+    std::vector<int> offer;           // categories, as they were offered
     std::vector<double> likelihoods;  // by option, errors of the device considered
   };
   struct RefusedAll {};
@@ -91,17 +94,20 @@ class Interview {
 
   /// What is known of an object after the steps.
   struct Opinion {
-    int category = -1;          // index in Affordances, -1 unknown
-    bool in_doubt = false;      // perception wants it asked about
-    bool remembered = false;    // the user named it in an earlier session
-    bool given = false;         // ... in this one
-    int refused = 0;            // categories offered and refused
-    std::vector<double> share;  // by option of the current offer
+    int category = -1;      // index in Affordances, -1 unknown
+    bool in_doubt = false;  // perception wants it asked about
+    bool remembered =
+        false;             // the user named it, or refused categories for it, in an earlier session
+    bool settled = false;  // the user named it in this one, or refused all categories
+    std::vector<int> refused;   // categories
+    std::vector<int> offered;   // categories that `share` is about
+    std::vector<double> share;  // by option of an offer that is not decided
   };
 
   void Recompute();
   void StartOpinions();
   void Apply(const WhatIsIt& step);
+  void Refuse(int object, const std::vector<int>& categories);
   void Relabel(int object, int category);
   void AskTask();
   void AskObject(int object);
@@ -110,7 +116,12 @@ class Interview {
   std::unique_ptr<Dialogue> Replayed(size_t from) const;
   int NextInDoubt() const;
   int NextToRecheck() const;
-  /// Categories to offer for an object, likeliest first.
+  /// Categories that were not refused for an object, likeliest first, those without a probability
+  /// last.
+  std::vector<int> Left(int object) const;
+  /// How many are offered before the known tasks are asked about.
+  size_t FirstOffers(int object) const;
+  /// Categories to offer for an object; empty once it is settled.
   std::vector<int> Offer(int object) const;
   std::vector<double> ThroughErrors(const std::vector<double>& likelihoods,
                                     const std::string& device) const;
@@ -131,8 +142,9 @@ class Interview {
   size_t relabelled_at_ = 0;       // evidence_.size() when a label last changed
   bool refused_all_ = false;
   Situation situation_;
-  Question question_;      // behind outcome_, where it is a yes/no query
-  int asked_object_ = -1;  // behind outcome_, where it is a what-is-it query
+  Question question_;       // behind outcome_, where it is a yes/no query
+  int asked_object_ = -1;   // behind outcome_, where it is a what-is-it query
+  std::vector<int> offer_;  // its options but the last
   Outcome outcome_;
 };
 
