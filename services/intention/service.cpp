@@ -157,6 +157,7 @@ struct Service::State {
                                         {"answers", c.answers},
                                         {"stale_answers", c.stale_answers},
                                         {"refused_requests", c.refused},
+                                        {"unknown_categories", c.unknown_categories},
                                         {"tasks", c.tasks},
                                         {"tasks_expired", c.expired},
                                         {"db_rows", rows ? *rows : -1},

@@ -44,7 +44,19 @@ class Desk {
     refusals.clear();
   }
 
-  void Show(const msg::Scene& scene) { Take(conversation->OnScene(scene, now)); }
+  void ShowSceneOnly(const msg::Scene& scene) { Take(conversation->OnScene(scene, now)); }
+  /// Poses of a scene, as pose publishes them where no fit converged.
+  void ShowPoses(const msg::Scene& scene, std::vector<msg::ObjectPose> fits = {}) {
+    msg::Poses poses;
+    poses.utime = scene.utime;
+    poses.scene_seq = scene.seq;
+    poses.poses = std::move(fits);
+    Take(conversation->OnPoses(poses, now));
+  }
+  void Show(const msg::Scene& scene) {
+    ShowSceneOnly(scene);
+    ShowPoses(scene);
+  }
   void Announce(const std::string& device, float error = 0, int max_options = 8) {
     msg::Interface interface;
     interface.device = device;

@@ -153,19 +153,20 @@ TEST_F(ConversationTest, KeepsItsSceneWhilePerceptionComesAndGoes) {
   EXPECT_EQ(end.text, "Open the carton.");
 }
 
+msg::ObjectPose PoseAt(int id, double x, double y) {
+  msg::ObjectPose pose;
+  pose.object_id = id;
+  pose.converged = true;
+  pose.X_WO.translation() = Eigen::Vector3d(x, y, 0.05);
+  return pose;
+}
+
 TEST_F(ConversationTest, TakesPosesByIdAndPlace) {
-  msg::Poses poses;
-  poses.poses.resize(3);
-  poses.poses[0].object_id = 1;
-  poses.poses[0].converged = true;
-  poses.poses[0].X_WO.translation() = Eigen::Vector3d(0.12, 0.52, 0.05);
-  poses.poses[1].object_id = 2;  // another object's place
-  poses.poses[1].converged = true;
-  poses.poses[1].X_WO.translation() = Eigen::Vector3d(0.5, 0.5, 0.05);
-  poses.poses[2].object_id = 4;  // did not converge
-  poses.poses[2].X_WO.translation() = Eigen::Vector3d(0.3, 0.6, 0.05);
+  msg::ObjectPose not_converged = PoseAt(4, 0.3, 0.6);
+  not_converged.converged = false;
   Begin();
-  desk.Take(desk.conversation->OnPoses(poses, desk.now));
+  desk.ShowPoses(scene,
+                 {PoseAt(1, 0.12, 0.52), PoseAt(2, 0.5, 0.5) /* elsewhere */, not_converged});
   desk.Converse(open_carton);
   EXPECT_TRUE(desk.tasks.back().has_pose);
   EXPECT_EQ(desk.tasks.back().pose.object_id, 1);
@@ -175,6 +176,71 @@ TEST_F(ConversationTest, TakesPosesByIdAndPlace) {
   desk.Start("s3");
   desk.Converse({"Push", 4, "Box"});
   EXPECT_FALSE(desk.tasks.back().has_pose);
+}
+
+TEST_F(ConversationTest, WaitsForThePosesOfItsScene) {
+  desk.ShowSceneOnly(scene);
+  desk.Start();
+  EXPECT_EQ(desk.events.back().kind, Kind::kBegun);
+  EXPECT_EQ(desk.events.back().text, "Waiting for the objects' poses.");
+  desk.Wait(kSecond / 2);
+  desk.Request(Kind::kRequestUndo);  // nothing to take back or to refuse yet
+  desk.Request(Kind::kRequestNoneOfThese);
+  EXPECT_TRUE(desk.queries.empty());
+  desk.ShowPoses(scene, {PoseAt(1, 0.1, 0.5)});
+  EXPECT_EQ(desk.events.back().text, "");
+  ASSERT_EQ(desk.queries.size(), 1u);
+  EXPECT_EQ(desk.queries[0].questions_asked, 0);
+  desk.Converse(open_carton);
+  EXPECT_TRUE(desk.tasks.back().has_pose);
+}
+
+TEST_F(ConversationTest, DoesNotWaitForPosesThatAreThere) {
+  desk.Show(scene);
+  desk.Start();
+  EXPECT_EQ(desk.queries.size(), 1u);
+  for (const auto& event : desk.events) EXPECT_EQ(event.text, "");
+}
+
+TEST_F(ConversationTest, GoesOnWithoutPosesWherePoseIsDead) {
+  desk.ShowSceneOnly(scene);
+  desk.Start();
+  desk.Wait(kSecond - kSecond / 10);
+  EXPECT_TRUE(desk.queries.empty());
+  desk.Wait(2 * kSecond / 10);
+  ASSERT_FALSE(desk.queries.empty());
+  desk.Converse(open_carton);
+  EXPECT_FALSE(desk.tasks.back().has_pose);
+  desk.Start("s2");  // the scene has been there for a second
+  EXPECT_EQ(desk.queries.back().session_id, "s2");
+}
+
+TEST_F(ConversationTest, TakesPosesOfALaterSceneWherePoseSkippedItsOwn) {
+  desk.ShowPoses(scene);  // of a frame before
+  msg::Scene second = scene, third = scene;
+  second.utime = scene.utime + 1;
+  third.utime = scene.utime + 2;
+  desk.ShowSceneOnly(second);
+  desk.Start();
+  EXPECT_TRUE(desk.queries.empty());
+  desk.ShowSceneOnly(third);
+  EXPECT_TRUE(desk.queries.empty());
+  desk.ShowPoses(third, {PoseAt(1, 0.1, 0.5)});
+  ASSERT_EQ(desk.queries.size(), 1u);
+  EXPECT_EQ(desk.Converse(open_carton).kind, Kind::kConfirmed);
+  EXPECT_TRUE(desk.tasks.back().has_pose);
+}
+
+TEST_F(ConversationTest, CanBeCancelledAndStoppedWhileItWaitsForPoses) {
+  desk.ShowSceneOnly(scene);
+  desk.Start();
+  desk.Request(Kind::kRequestCancel);
+  EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+  desk.Start("s2");
+  desk.Request(Kind::kRequestStop, "s2");
+  desk.ShowPoses(scene);
+  desk.Wait(2 * kSecond);
+  EXPECT_TRUE(desk.queries.empty());
 }
 
 TEST_F(ConversationTest, UndoTakesTheLastAnswerBack) {
@@ -332,12 +398,24 @@ TEST_F(ConversationTest, KilledAfterTheCommitPublishesTheTaskAgain) {
   EXPECT_EQ(desk.statuses[0].state, msg::TaskState::kExpired);
 }
 
-TEST_F(ConversationTest, UnknownCategoryOfAMessageIsRefusedByName) {
-  desk.Show(SceneOf({SceneObject(1, "Teapot", 0, 0.5), SceneObject(2, "Mug", 0.1, 0.5)}));
+TEST_F(ConversationTest, ACategoryThatTheAffordancesLackIsSaidOnceAndCountsAsUnknown) {
+  const msg::Scene with_teapot =
+      SceneOf({SceneObject(1, "Teapot", 0, 0.5), SceneObject(2, "Mug", 0.1, 0.5)});
+  desk.Announce("switch", 0, 12);
+  for (int i = 0; i < 5; ++i) desk.Show(with_teapot);
   desk.Start();
-  ASSERT_FALSE(desk.refusals.empty());
+  EXPECT_EQ(desk.Converse({"Drink", 2, "Mug"}).text, "Drink from the mug.");  // still of use
+  desk.Show(with_teapot);
+  desk.Start("s2");
+  ASSERT_EQ(desk.refusals.size(), 1u);
+  EXPECT_EQ(desk.refusals[0].channel, "BECKON_SCENE");
   EXPECT_NE(desk.refusals[0].detail.find("'Teapot'"), std::string::npos);
-  EXPECT_FALSE(desk.queries.empty());  // the mug is still of use
+  EXPECT_EQ(desk.conversation->counters().unknown_categories, 2);  // one a session
+  desk.Request(Kind::kRequestNoneOfThese, "s2");  // no known task: what is the other thing?
+  ASSERT_EQ(desk.queries.back().kind, msg::QueryKind::kWhatIsIt);
+  EXPECT_EQ(desk.queries.back().objects[0].object_id, 1);
+  EXPECT_EQ(desk.queries.back().objects[0].category, msg::kUnknownCategory);
+  EXPECT_EQ(desk.Converse({"Move", 1, "Cup"}, {{1, "Cup"}}).text, "Move the cup.");
 }
 
 TEST_F(ConversationTest, NoisyDeviceNeedsMoreThanOneYes) {

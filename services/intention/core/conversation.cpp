@@ -143,74 +143,107 @@ void Conversation::Start(const msg::Session& request, Utime now) {
   TryBegin(*talk, now);
 }
 
-/// Takes the newest scene, or says what it waits for.
+/// Asks the first question as soon as scene and poses are there, or says what it waits for.
 void Conversation::TryBegin(Talk& talk, Utime now) {
-  const std::string waited_for = talk.waits_for;
+  if (!talk.scene && !TakeScene(talk, now)) return;
+  // Poses of its frame or of a later one: pose may skip scenes.
+  if (poses_.utime < talk.scene->utime && now < talk.ask_by)
+    return WaitFor(talk, "Waiting for the objects' poses.", now);
   talk.waits_for.clear();
-  if (!scene_ || now - scene_arrived_ > config_.scene_max_age) {
-    talk.waits_for = "Waiting for a picture of the table.";
-  } else if (!scene_->has_table) {
-    talk.waits_for = "Waiting until the table is in view.";
-  } else if (scene_->objects.empty()) {
-    talk.waits_for = "Waiting for objects on the table.";
-  }
-  if (!talk.waits_for.empty()) {
-    if (talk.waits_for != waited_for) AnnounceRunning(talk, now);
-    return;
-  }
-  talk.scene = *scene_;
-  if (talk.scene.objects.size() > kMaxThings) talk.scene.objects.resize(kMaxThings);
-  InterviewInput input;
-  const auto labels = memory_.LabelsOf(talk.scene.source);
-  const auto sessions = memory_.SessionsOf(talk.user);
-  if (!labels) Refuse(kSessionChannel, labels.error().message);
-  if (!sessions) Refuse(kSessionChannel, sessions.error().message);
-  for (const msg::SceneObject& object : talk.scene.objects) {
-    const LabelRecord* label =
-        labels ? FindLabel(*labels, talk.scene.source, object, config_.labels) : nullptr;
-    input.remembered.push_back(label == nullptr ? "" : label->category);
-    if (object.category != msg::kUnknownCategory &&
-        affordances_.FindCategory(object.category) < 0) {
-      Refuse("BECKON_SCENE", "object " + std::to_string(object.id) +
-                                 " is of the unknown category '" + object.category +
-                                 "'; add it to affordances.toml");
-    }
-  }
-  if (sessions) input.history = ToHistory(*sessions, affordances_);
-  input.scene = talk.scene;
-  input.device = talk.device;
-  input.devices = devices_;
-  input.seed = Hash(talk.session_id);
-  talk.interview = std::make_unique<Interview>(affordances_, policy_, std::move(input));
-  MatchPoses(talk);
+  talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk));
   AnnounceRunning(talk, now);
   Advance(talk, now);
 }
 
-Actions Conversation::OnScene(const msg::Scene& scene, Utime now) {
-  scene_ = scene;
-  scene_arrived_ = now;
+void Conversation::WaitFor(Talk& talk, const std::string& what, Utime now) {
+  if (talk.waits_for == what) return;
+  talk.waits_for = what;
+  AnnounceRunning(talk, now);
+}
+
+bool Conversation::TakeScene(Talk& talk, Utime now) {
+  std::string missing;
+  if (!scene_ || now - scene_arrived_ > config_.scene_max_age) {
+    missing = "Waiting for a picture of the table.";
+  } else if (!scene_->has_table) {
+    missing = "Waiting until the table is in view.";
+  } else if (scene_->objects.empty()) {
+    missing = "Waiting for objects on the table.";
+  }
+  if (!missing.empty()) {
+    WaitFor(talk, missing, now);
+    return false;
+  }
+  talk.scene = *scene_;
+  if (talk.scene->objects.size() > kMaxThings) talk.scene->objects.resize(kMaxThings);
+  talk.ask_by = scene_arrived_ + config_.pose_wait;
+  CheckCategories(*talk.scene);
+  MatchPoses(talk);
+  return true;
+}
+
+/// Says each name once; such objects count as unknown ones.
+void Conversation::CheckCategories(const msg::Scene& scene) {
+  for (const msg::SceneObject& object : scene.objects) {
+    const std::string& name = object.category;
+    if (name == msg::kUnknownCategory || affordances_.FindCategory(name) >= 0) continue;
+    ++counters_.unknown_categories;
+    if (unknown_categories_.size() >= kMaxCategories || !unknown_categories_.insert(name).second)
+      continue;
+    Refuse("BECKON_SCENE", "object " + std::to_string(object.id) + " is of the unknown category '" +
+                               name + "', it counts as Unknown; add it to affordances.toml");
+  }
+}
+
+InterviewInput Conversation::InputOf(const Talk& talk) {
+  InterviewInput input;
+  const auto labels = memory_.LabelsOf(talk.scene->source);
+  const auto sessions = memory_.SessionsOf(talk.user);
+  if (!labels) Refuse(kSessionChannel, labels.error().message);
+  if (!sessions) Refuse(kSessionChannel, sessions.error().message);
+  for (const msg::SceneObject& object : talk.scene->objects) {
+    const LabelRecord* label =
+        labels ? FindLabel(*labels, talk.scene->source, object, config_.labels) : nullptr;
+    input.remembered.push_back(label == nullptr ? "" : label->category);
+  }
+  if (sessions) input.history = ToHistory(*sessions, affordances_);
+  input.scene = *talk.scene;
+  input.device = talk.device;
+  input.devices = devices_;
+  input.seed = Hash(talk.session_id);
+  return input;
+}
+
+/// The sessions that have not asked anything yet. Each may end, and with it its talk.
+void Conversation::BeginWaiting(Utime now) {
   std::vector<Talk*> waiting;
   for (auto& [user, talk] : talks_) {
     if (!talk->interview) waiting.push_back(talk.get());
   }
   for (Talk* talk : waiting) TryBegin(*talk, now);
+}
+
+Actions Conversation::OnScene(const msg::Scene& scene, Utime now) {
+  scene_ = scene;
+  scene_arrived_ = now;
+  BeginWaiting(now);
   return Taken();
 }
 
-Actions Conversation::OnPoses(const msg::Poses& poses, Utime) {
+Actions Conversation::OnPoses(const msg::Poses& poses, Utime now) {
   poses_ = poses;
   for (auto& [user, talk] : talks_) {
-    if (talk->interview) MatchPoses(*talk);
+    if (talk->scene) MatchPoses(*talk);
   }
+  BeginWaiting(now);
   return Taken();
 }
 
 void Conversation::MatchPoses(Talk& talk) const {
   for (const msg::ObjectPose& pose : poses_.poses) {
     if (!pose.converged) continue;
-    for (size_t i = 0; i < talk.scene.objects.size(); ++i) {
-      const msg::SceneObject& object = talk.scene.objects[i];
+    for (size_t i = 0; i < talk.scene->objects.size(); ++i) {
+      const msg::SceneObject& object = talk.scene->objects[i];
       if (object.id != pose.object_id) continue;
       if ((pose.X_WO.translation() - object.centroid_W).norm() > config_.pose_place_m) continue;
       talk.poses[static_cast<int>(i)] = pose;
@@ -252,7 +285,7 @@ void Conversation::Advance(Talk& talk, Utime now) {
   query.id = last_query_id_ = std::max(last_query_id_ + 1, now);
   query.session_id = talk.session_id;
   query.user = talk.user;
-  query.scene_seq = talk.scene.seq;
+  query.scene_seq = talk.scene->seq;
   query.questions_asked = talk.interview->questions();
   talk.query = query;
   talk.query_sent = now;

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <variant>
@@ -25,6 +26,7 @@ struct ConversationConfig {
   Utime task_period = kSecond / 2;
   Utime task_lifetime = 30 * kSecond;
   Utime scene_max_age = 5 * kSecond;  // since it arrived
+  Utime pose_wait = kSecond;          // most that the first query waits for poses, likewise
   double pose_place_m = 0.10;         // most between a pose and the object it is for
   int max_sessions = 16;              // users at a time
   LabelMatchConfig labels;
@@ -49,6 +51,7 @@ struct ConversationCounters {
   int64_t refused = 0;  // other messages
   int64_t tasks = 0;    // published the first time
   int64_t expired = 0;
+  int64_t unknown_categories = 0;  // objects of sessions, of a category not in the affordances
 };
 
 class Conversation {
@@ -82,6 +85,12 @@ class Conversation {
 
   void Start(const msg::Session& request, Utime now);
   void TryBegin(Talk& talk, Utime now);
+  /// Takes the newest scene. False: it went on waiting for one.
+  bool TakeScene(Talk& talk, Utime now);
+  void WaitFor(Talk& talk, const std::string& what, Utime now);
+  void CheckCategories(const msg::Scene& scene);
+  InterviewInput InputOf(const Talk& talk);
+  void BeginWaiting(Utime now);
   void Advance(Talk& talk, Utime now);
   void Confirm(Talk& talk, const AcceptedTask& accepted, Utime now);
   void Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels);
@@ -114,9 +123,10 @@ class Conversation {
   std::map<std::string, std::unique_ptr<Talk>> talks_;  // by user
   std::map<std::string, PendingTask> tasks_;            // by task id
   std::map<std::string, DeviceModel> devices_;
-  std::deque<RequestIdentity> seen_;  // the last few requests
-  std::deque<msg::Session> ended_;    // the last few outcomes, newest at the back
-  msg::Session latest_;               // the event that is announced while nothing runs
+  std::deque<RequestIdentity> seen_;          // the last few requests
+  std::deque<msg::Session> ended_;            // the last few outcomes, newest at the back
+  std::set<std::string> unknown_categories_;  // that were complained about
+  msg::Session latest_;                       // the event that is announced while nothing runs
   Utime latest_announced_ = 0;
   std::optional<msg::Scene> scene_;
   Utime scene_arrived_ = 0;

@@ -17,14 +17,14 @@ constexpr size_t kRememberedEnds = 32;
 std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) const {
   std::vector<LabelRecord> records;
   for (const GivenLabel& label : talk.interview->Labels()) {
-    const msg::SceneObject& object = talk.scene.objects[label.object];
+    const msg::SceneObject& object = talk.scene->objects[label.object];
     LabelRecord record;
     record.id = talk.session_id + "/label/" + std::to_string(object.id);
     record.session_id = talk.session_id;
     record.user = talk.user;
     record.utime = now;
     record.category = label.category;
-    record.source = talk.scene.source;
+    record.source = talk.scene->source;
     record.centroid_W = object.centroid_W;
     record.extent_W = object.extent_W;
     record.probabilities = object.probabilities;
@@ -34,7 +34,7 @@ std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) con
 }
 
 msg::Task Conversation::MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const {
-  const msg::SceneObject& object = talk.scene.objects[accepted.object];
+  const msg::SceneObject& object = talk.scene->objects[accepted.object];
   msg::Task task;
   task.utime = now;
   task.task_id = talk.session_id;
@@ -47,7 +47,7 @@ msg::Task Conversation::MakeTask(const Talk& talk, const AcceptedTask& accepted,
     task.has_pose = true;
     task.pose = pose->second;
   }
-  task.X_WC = talk.scene.X_WC;
+  task.X_WC = talk.scene->X_WC;
   task.posterior = std::min(accepted.posterior, 1.0);
   task.questions = talk.interview->questions();
   task.expires_utime = now + config_.task_lifetime;
@@ -181,17 +181,15 @@ void Conversation::RepeatTasks(Utime now) {
 }
 
 Actions Conversation::Tick(Utime now) {
-  std::vector<Talk*> waiting;
   for (auto& [user, talk] : talks_) {
-    if (!talk->interview) waiting.push_back(talk.get());
     if (talk->query && now - talk->query_sent >= config_.query_period) {
       talk->query_sent = now;
       actions_.push_back(*talk->query);
     }
     if (now - talk->announced >= config_.announce_period) AnnounceRunning(*talk, now);
   }
-  // A scene that was fresh when it was waited for may have grown old.
-  for (Talk* talk : waiting) TryBegin(*talk, now);
+  // A scene that was fresh may have grown old, and poses are waited for only so long.
+  BeginWaiting(now);
   if (now - latest_announced_ >= config_.announce_period && (stopped_ || talks_.empty())) {
     latest_.utime = now;
     Announce(msg::Session(latest_), now);

@@ -10,13 +10,14 @@
 
 namespace beckon::intention {
 
-/// A running session.
+/// A running session: waits for a scene, then for its poses, then asks (interview is there).
 struct Conversation::Talk {
   std::string session_id;
   std::string user;
   std::string device;
-  std::string waits_for;  // empty once it has a scene
-  msg::Scene scene;
+  std::string waits_for;  // in words; empty once it asks
+  std::optional<msg::Scene> scene;
+  Utime ask_by = 0;                      // with or without poses
   std::map<int, msg::ObjectPose> poses;  // by index of the scene's object
   std::unique_ptr<Interview> interview;
   std::optional<msg::Query> query;
