@@ -1,4 +1,4 @@
-// Scenario files: one session a line, as JSON (DESIGN section 8).
+// Scenario files: one session a line, as JSON (docs/formats.md).
 #pragma once
 
 #include <functional>

@@ -35,7 +35,7 @@ struct CloudPose {
   double time_ms = 0;
 };
 
-/// The JSON of DESIGN section 8: a list in input order, all in the input's frame.
+/// The JSON of docs/formats.md: a list in input order, all in the input's frame.
 std::string PosesToJson(const std::vector<CloudPose>& poses, const std::string& method);
 
 /// Writes the whole file or says why not.
