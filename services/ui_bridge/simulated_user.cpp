@@ -21,10 +21,12 @@ float Probability(const msg::SceneObject& object, const std::string& category) {
 
 double Distance(const msg::SceneObject& object) { return object.centroid_W.head<2>().norm(); }
 
-/// The option that says that none of the others is right.
+/// The option that says that none of the others is right: it stands for nothing, or, where it is
+/// asked what an object is, for the unknown category.
 std::optional<size_t> NoneOption(const msg::Query& query) {
   for (size_t i = query.options.size(); i-- > 0;) {
     const auto& option = query.options[i];
+    if (option.category == msg::kUnknownCategory) return i;
     if (option.category.empty() && option.action.empty() && option.objects.empty()) return i;
   }
   return {};
@@ -56,10 +58,7 @@ Response SimulatedUser::Respond(const msg::Query& query) {
   }
   if (!wanted_id_) {
     wanted_id_ = ChooseObject(*scene_);
-    if (!wanted_id_) {
-      return GiveUp{"no object on the table is a " + config_.category +
-                    (truth_.known ? " (by the scene's ground truth)" : " (nor taken for one)")};
-    }
+    if (!wanted_id_) return GiveUp{WhyNoneIsWanted()};
   }
   switch (query.kind) {
     case msg::QueryKind::kWhatIsIt:
@@ -89,6 +88,14 @@ std::optional<int> SimulatedUser::ChooseObject(const msg::Scene& scene) const {
   }
   if (best == nullptr) return {};
   return best->id;
+}
+
+std::string SimulatedUser::WhyNoneIsWanted() const {
+  if (!truth_.known) return "no object on the table is taken for a " + config_.category;
+  if (std::ranges::count(truth_.objects, config_.category, &TruthObject::category) == 0)
+    return "no object on the table is a " + config_.category + " (by the scene's ground truth)";
+  return "no segment of the scene shows the wanted " + config_.category +
+         " apart from its neighbours";
 }
 
 std::string SimulatedUser::TrueCategory(int object_id) const {

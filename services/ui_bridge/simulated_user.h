@@ -27,7 +27,7 @@ struct Choose {
 struct RefuseAll {};
 /// The scene is not known yet: ask again when it is.
 struct CannotTell {};
-/// What is wanted is not on the table.
+/// What is wanted is not on the table, or no object of the scene shows it.
 struct GiveUp {
   std::string reason;
 };
@@ -54,6 +54,8 @@ class SimulatedUser {
 
  private:
   std::optional<int> ChooseObject(const msg::Scene& scene) const;
+  /// Why ChooseObject found nothing.
+  std::string WhyNoneIsWanted() const;
   /// What the user sees in an object; empty where it cannot say (nothing of the truth is there).
   std::string TrueCategory(int object_id) const;
   Response SayWhatItIs(const msg::Query& query) const;

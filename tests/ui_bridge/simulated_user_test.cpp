@@ -50,7 +50,7 @@ msg::Query WhatIsIt(int id, const std::vector<std::string>& categories) {
   query.objects = {{id, "Unknown", 1}};
   for (const auto& category : categories)
     query.options.push_back({"a " + category, category, "", {id}});
-  query.options.push_back({"None of these", "", "", {}});
+  query.options.push_back({"None of these", msg::kUnknownCategory, "", {id}});  // as intention does
   return query;
 }
 
@@ -125,6 +125,31 @@ TEST(SimulatedUser, GivesUpWhereItsCategoryIsNowhere) {
   const auto* give_up = std::get_if<GiveUp>(&response);
   ASSERT_NE(give_up, nullptr);
   EXPECT_NE(give_up->reason.find("Tube"), std::string::npos);
+}
+
+std::string ReasonToGiveUp(SimulatedUser& user) {
+  const auto response = user.Respond(YesNo(msg::QueryKind::kAction, {"Grasp"}, {}));
+  const auto* give_up = std::get_if<GiveUp>(&response);
+  return give_up == nullptr ? "does not give up" : give_up->reason;
+}
+
+TEST(SimulatedUser, SaysWhetherItsObjectIsAbsentOrOnlyNotSegmented) {
+  SimulatedUser user({.action = "Open", .category = "Box"});
+  auto scene = TestScene({Object(1, "Box", 0.5)});
+  user.SeeScene(scene);
+  // One segment over a mug and the box behind it: its centroid is the mug's.
+  user.SetTruth({true, {Truth("Mug", 0.5, scene), Truth("Box", 0.6, scene)}});
+  EXPECT_EQ(ReasonToGiveUp(user),
+            "no segment of the scene shows the wanted Box apart from its neighbours");
+  user.SetTruth({true, {Truth("Mug", 0.5, scene)}});
+  EXPECT_EQ(ReasonToGiveUp(user), "no object on the table is a Box (by the scene's ground truth)");
+}
+
+TEST(SimulatedUser, AnswersNoneOfTheseByTheOptionForIt) {
+  SimulatedUser user({.action = "Grasp", .category = "Tube"});
+  user.SeeScene(TestScene({Object(1, "Tube", 0.5), Object(2, "Box", 0.7)}));
+  EXPECT_EQ(Choice(user.Respond(WhatIsIt(1, {"Box", "Cup"}))), 2u);
+  EXPECT_EQ(Choice(user.Respond(WhatIsIt(2, {"Mug", "Cup"}))), 2u);
 }
 
 TEST(SimulatedUser, ChoosesTheOptionThatFits) {
