@@ -10,6 +10,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -335,6 +336,60 @@ TEST_F(StoreTest, SaysThatItIsDamaged) {
   file << std::string(size - 8192, '\x5a');
   file.close();
   EXPECT_NE(Refusal().find("damaged"), std::string::npos);
+}
+
+TEST_F(StoreTest, FindsEveryDamagedTreeWhenItOpens) {
+  {
+    const auto store = Open();
+    for (int i = 0; i < 60; ++i) Commit(*store, Session("s" + std::to_string(i)));
+    ASSERT_TRUE(store->NoteTask("s1", msg::TaskState::kDone, 1).ok());
+    ASSERT_TRUE(store->SetStopped(false, 1).ok());
+  }
+  std::map<std::string, int64_t> roots;
+  int64_t page_bytes = 0;
+  {
+    SQLite::Database raw(path);
+    page_bytes = raw.execAndGet("PRAGMA page_size").getInt64();
+    SQLite::Statement query(raw, "SELECT name, rootpage FROM sqlite_master WHERE rootpage > 0");
+    while (query.executeStep())
+      roots[query.getColumn(0).getString()] = query.getColumn(1).getInt64();
+  }
+  for (const char* table : {"rows", "tasks", "task_states", "stops"})
+    ASSERT_TRUE(roots.contains(table)) << table;
+  std::ifstream whole(path, std::ios::binary);
+  const std::string sound((std::istreambuf_iterator<char>(whole)), {});
+  for (const auto& [name, page] : roots) {
+    SCOPED_TRACE(name);
+    std::string damaged = sound;
+    damaged.replace(static_cast<size_t>((page - 1) * page_bytes), static_cast<size_t>(page_bytes),
+                    std::string(static_cast<size_t>(page_bytes), '\x5a'));
+    std::ofstream(path, std::ios::binary) << damaged;
+    for (const auto mode : {Store::Mode::kWrite, Store::Mode::kRead}) {
+      const std::string refusal = Refusal(mode);
+      EXPECT_EQ(refusal.find(path + ": the database is damaged ("), 0u) << refusal;
+      EXPECT_NE(refusal.find("import a backup"), std::string::npos) << refusal;
+    }
+  }
+  std::ofstream(path, std::ios::binary) << sound;
+  EXPECT_EQ(Open()->SessionsOf("ann")->size(), 60u);
+}
+
+TEST_F(StoreTest, FindsALeafPageThatWasOverwritten) {
+  {
+    const auto store = Open();
+    for (int i = 0; i < 60; ++i) Commit(*store, Session("s" + std::to_string(i)));
+  }
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string sound((std::istreambuf_iterator<char>(file)), {});
+  const size_t body = sound.rfind("\"session_id\":\"s30\"");
+  ASSERT_NE(body, std::string::npos);
+  const size_t page_start = body / 4096 * 4096;
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(page_start));
+  file << std::string(4096, '\0');
+  file.close();
+  const std::string refusal = Refusal();
+  EXPECT_NE(refusal.find("the database is damaged ("), std::string::npos) << refusal;
 }
 
 TEST_F(StoreTest, OpensTheFilesOfTheFirstVersion) {
