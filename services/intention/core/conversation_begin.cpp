@@ -1,0 +1,209 @@
+// How sessions begin: what an earlier run left, the scene and its poses, what is remembered.
+#include <algorithm>
+
+#include "services/intention/core/conversation.h"
+#include "services/intention/core/conversation_talk.h"
+
+namespace beckon::intention {
+namespace {
+
+constexpr char kSessionChannel[] = "BECKON_SESSION";
+constexpr size_t kMostDevices = 64;
+
+/// FNV-1a: the same session has the same ties everywhere.
+uint64_t Hash(const std::string& text) {
+  uint64_t hash = 14695981039346656037ull;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return hash;
+}
+
+}  // namespace
+
+Actions Conversation::Recover(Utime now) {
+  latest_ = Event(msg::SessionKind::kIdle, now);
+  if (const auto stopped = memory_.Stopped(); stopped) stopped_ = *stopped;
+  const auto open = memory_.OpenTasks();
+  if (!open) {
+    Refuse(kSessionChannel, open.error().message);
+  } else {
+    for (const msg::Task& task : *open) {
+      tasks_[task.task_id] = {task, 0};
+      if (task.expires_utime <= now) continue;
+      latest_ = Event(msg::SessionKind::kConfirmed, now);
+      latest_.session_id = task.task_id;
+      latest_.user = task.user;
+      latest_.questions = task.questions;
+      latest_.text = task.action + " " + task.object.category + ".";
+    }
+  }
+  if (stopped_) {
+    latest_ = Event(msg::SessionKind::kStopped, now);
+    RevokeTasks(now);
+  }
+  Announce(msg::Session(latest_), now);
+  RepeatTasks(now);
+  return Taken();
+}
+
+void Conversation::Start(const msg::Session& request, Utime now) {
+  if (stopped_) return Announce(msg::Session(latest_), now);
+  if (const auto running = talks_.find(request.user); running != talks_.end()) {
+    return AnnounceRunning(*running->second, now);
+  }
+  if (const msg::Session* ended = Ended(request.session_id)) {
+    msg::Session again = *ended;
+    again.utime = now;
+    actions_.push_back(again);
+    return;
+  }
+  const auto known = memory_.FindSession(request.session_id);
+  if (!known) return Refuse(kSessionChannel, known.error().message);
+  if (known->has_value()) {
+    msg::Session confirmed = Event(msg::SessionKind::kConfirmed, now);
+    confirmed.session_id = request.session_id;
+    confirmed.user = (*known)->user;
+    confirmed.questions = (*known)->questions;
+    confirmed.text = (*known)->action + " " + (*known)->category + ".";
+    actions_.push_back(confirmed);
+    return;
+  }
+  if (static_cast<int>(talks_.size()) >= config_.max_sessions) {
+    return Refuse(kSessionChannel, "a session of '" + request.user + "' is one more than " +
+                                       std::to_string(config_.max_sessions) + " at a time");
+  }
+  ++counters_.sessions;
+  auto& talk = talks_[request.user] = std::make_unique<Talk>();
+  talk->session_id = request.session_id;
+  talk->user = request.user;
+  talk->device = request.device;
+  TryBegin(*talk, now);
+}
+
+/// Asks the first question as soon as scene and poses are there, or says what it waits for.
+void Conversation::TryBegin(Talk& talk, Utime now) {
+  if (!talk.scene && !TakeScene(talk, now)) return;
+  // Poses of its frame or of a later one: pose may skip scenes.
+  if (poses_.utime < talk.scene->utime && now < talk.ask_by)
+    return WaitFor(talk, "Waiting for the objects' poses.", now);
+  talk.waits_for.clear();
+  talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk));
+  AnnounceRunning(talk, now);
+  Advance(talk, now);
+}
+
+void Conversation::WaitFor(Talk& talk, const std::string& what, Utime now) {
+  if (talk.waits_for == what) return;
+  talk.waits_for = what;
+  AnnounceRunning(talk, now);
+}
+
+bool Conversation::TakeScene(Talk& talk, Utime now) {
+  std::string missing;
+  if (!scene_ || now - scene_arrived_ > config_.scene_max_age) {
+    missing = "Waiting for a picture of the table.";
+  } else if (!scene_->has_table) {
+    missing = "Waiting until the table is in view.";
+  } else if (scene_->objects.empty()) {
+    missing = "Waiting for objects on the table.";
+  }
+  if (!missing.empty()) {
+    WaitFor(talk, missing, now);
+    return false;
+  }
+  talk.scene = *scene_;
+  if (talk.scene->objects.size() > kMaxThings) talk.scene->objects.resize(kMaxThings);
+  talk.ask_by = scene_arrived_ + config_.pose_wait;
+  CheckCategories(*talk.scene);
+  MatchPoses(talk);
+  return true;
+}
+
+/// Says each name once; such objects count as unknown ones.
+void Conversation::CheckCategories(const msg::Scene& scene) {
+  for (const msg::SceneObject& object : scene.objects) {
+    const std::string& name = object.category;
+    if (name == msg::kUnknownCategory || affordances_.FindCategory(name) >= 0) continue;
+    ++counters_.unknown_categories;
+    if (unknown_categories_.size() >= kMaxCategories || !unknown_categories_.insert(name).second)
+      continue;
+    Refuse("BECKON_SCENE", "object " + std::to_string(object.id) + " is of the unknown category '" +
+                               name + "', it counts as Unknown; add it to affordances.toml");
+  }
+}
+
+InterviewInput Conversation::InputOf(const Talk& talk) {
+  InterviewInput input;
+  const auto labels = memory_.LabelsOf(talk.scene->source);
+  const auto sessions = memory_.SessionsOf(talk.user);
+  if (!labels) Refuse(kSessionChannel, labels.error().message);
+  if (!sessions) Refuse(kSessionChannel, sessions.error().message);
+  for (const msg::SceneObject& object : talk.scene->objects) {
+    const LabelRecord* label =
+        labels ? FindLabel(*labels, talk.scene->source, object, config_.labels) : nullptr;
+    input.remembered.push_back(label == nullptr ? "" : label->category);
+  }
+  if (sessions) input.history = ToHistory(*sessions, affordances_);
+  input.scene = *talk.scene;
+  input.device = talk.device;
+  input.devices = devices_;
+  input.seed = Hash(talk.session_id);
+  return input;
+}
+
+/// The sessions that have not asked anything yet. Each may end, and with it its talk.
+void Conversation::BeginWaiting(Utime now) {
+  std::vector<Talk*> waiting;
+  for (auto& [user, talk] : talks_) {
+    if (!talk->interview) waiting.push_back(talk.get());
+  }
+  for (Talk* talk : waiting) TryBegin(*talk, now);
+}
+
+Actions Conversation::OnScene(const msg::Scene& scene, Utime now) {
+  scene_ = scene;
+  scene_arrived_ = now;
+  BeginWaiting(now);
+  return Taken();
+}
+
+Actions Conversation::OnPoses(const msg::Poses& poses, Utime now) {
+  poses_ = poses;
+  for (auto& [user, talk] : talks_) {
+    if (talk->scene) MatchPoses(*talk);
+  }
+  BeginWaiting(now);
+  return Taken();
+}
+
+void Conversation::MatchPoses(Talk& talk) const {
+  for (const msg::ObjectPose& pose : poses_.poses) {
+    if (!pose.converged) continue;
+    for (size_t i = 0; i < talk.scene->objects.size(); ++i) {
+      const msg::SceneObject& object = talk.scene->objects[i];
+      if (object.id != pose.object_id) continue;
+      if ((pose.X_WO.translation() - object.centroid_W).norm() > config_.pose_place_m) continue;
+      talk.poses[static_cast<int>(i)] = pose;
+    }
+  }
+}
+
+Actions Conversation::OnInterface(const msg::Interface& announced, Utime) {
+  if (devices_.size() >= kMostDevices && !devices_.contains(announced.device)) {
+    Refuse("BECKON_INTERFACE", "'" + announced.device + "' is one front end too many");
+    return Taken();
+  }
+  DeviceModel& model = devices_[announced.device];
+  model.announced = true;
+  model.max_options = announced.max_options;
+  model.rates = {announced.false_yes, announced.false_no};
+  model.confusion = announced.confusion;
+  if (model.confusion.size() == 2) {  // rows: meant yes, meant no
+    model.rates = {model.confusion[1][0], model.confusion[0][1]};
+  }
+  for (auto& [user, talk] : talks_) {
+    if (talk->interview) talk->interview->Know(announced.device, model);
+  }
+  return Taken();
+}
+
+}  // namespace beckon::intention
