@@ -11,6 +11,7 @@
 #include <random>
 
 #include "lcmtypes/codec.h"
+#include "services/base/cloud_file.h"
 #include "tests/system/live_system.h"
 #include "tools/beckon/session_report.h"
 
@@ -79,6 +80,41 @@ TEST_F(SystemTest, DemoSaysInOneLineWhatIsWrongWithItsInput) {
   }
 }
 
+/// A plane that fills the camera's view, as a small organised cloud: n·p + d = 0 in C.
+void WritePlane(const std::string& path, const Eigen::Vector3f& normal, float offset_m) {
+  constexpr int kWidth = 160, kHeight = 120;
+  constexpr float kFocal = 131;  // px
+  Cloud cloud{.width = kWidth, .height = kHeight};
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const Eigen::Vector3f ray((u - kWidth / 2.0F) / kFocal, (v - kHeight / 2.0F) / kFocal, 1);
+      cloud.points.push_back(ray * (-offset_m / normal.dot(ray)));
+    }
+  }
+  cloud.colours.assign(cloud.points.size(), Rgb{120, 120, 120});
+  ASSERT_TRUE(WritePcdFile(path, cloud));
+}
+
+TEST_F(SystemTest, DemoRefusesAnInputThatShowsNoTableOrNothingOnIt) {
+  auto folder = tool::RunFolder::Make("", "beckon-input");
+  const std::string wall = folder->path() + "/wall.pcd", table = folder->path() + "/table.pcd";
+  WritePlane(wall, {0, 0, -1}, 1.5F);
+  WritePlane(table, Eigen::Vector3f(0, -0.7F, -0.714F).normalized(), 0.8F);
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {wall, "wall.pcd: no table was found (1 plane"},
+      {table, "table.pcd: a table was found, but no object on it"},
+      {folder->path(), "a table was found (2 images seen), but no object on it"}};
+  for (const auto& [input, complaint] : cases) {
+    const Stopwatch watch;
+    const auto output = RunProgram(BECKON_BIN_DIR "/beckon",
+                                   {"demo", "--headless", "--input", input, "--want", "Grasp:Box"});
+    EXPECT_EQ(output.code, 2) << output.text;
+    EXPECT_EQ(output.lines().size(), 1u) << output.text;
+    EXPECT_NE(output.text.find(complaint), std::string::npos) << output.text;
+    EXPECT_LT(watch.Milliseconds(), 15'000);
+  }
+}
+
 /// SIGKILL of one service after another in mid-session.
 class KillTest : public SystemTest, public ::testing::WithParamInterface<std::string> {};
 
@@ -123,14 +159,15 @@ TEST_P(KillTest, TheConversationResumesAndNothingIsLostOrDoubled) {
   const auto on_disk = system.SessionsOnDisk();
   for (const auto& [id, count] : on_disk) EXPECT_EQ(count, 1) << id;
   for (const auto& record : system.sessions()) {
-    if (record.task) EXPECT_EQ(on_disk.count(record.session_id), 1u) << "published and not on disk";
+    if (!record.task) continue;
+    EXPECT_EQ(on_disk.count(record.session_id), 1u) << "published and not on disk";
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Services, KillTest,
                          ::testing::Values("capture", "perception", "pose", "intention",
                                            "ui_bridge"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& service) { return service.param; });
 
 /// Bytes that no service may take for a message: random ones, and real messages damaged.
 std::vector<uint8_t> Garbage(const std::vector<uint8_t>& real, std::mt19937_64& engine) {

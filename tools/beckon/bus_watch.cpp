@@ -23,12 +23,6 @@ BusWatch::BusWatch(Bus& bus, const Clock& clock, const Clock& steady, std::strin
     }
     observer_.OnTask(task, steady_.Now());
   });
-  bus_.Subscribe<msg::Scene>(
-      [this](const msg::Scene& scene) {
-        saw_scene_ = true;
-        saw_table_ = saw_table_ || scene.has_table;
-      },
-      1);
   bus_.Subscribe<msg::Status>(
       [this](const msg::Status& status) { statuses_[status.service] = status; });
 }

@@ -26,9 +26,6 @@ class BusWatch {
   /// "perception says 'no table in view'", "nothing is heard of perception".
   std::string Says(const std::string& service) const;
 
-  bool saw_scene() const { return saw_scene_; }
-  bool saw_table() const { return saw_table_; }
-
  private:
   Bus& bus_;
   const Clock& clock_;
@@ -36,8 +33,6 @@ class BusWatch {
   SessionObserver observer_;
   SimulatedRobot robot_;
   std::map<std::string, msg::Status> statuses_;
-  bool saw_scene_ = false;
-  bool saw_table_ = false;
 };
 
 }  // namespace beckon::tool

@@ -42,6 +42,9 @@ void AddDemo(CLI::App& app, DemoOptions& o) {
   demo->add_option("--port", o.port, "Of the page, which is not part of this version")
       ->check(CLI::Range(1, 65535));
   demo->add_option("--record", o.record, "Log all messages with lcm-logger")->type_name("LOG");
+  demo->add_option("--picture", o.picture,
+                   "Draw what was seen, and the first conversation, to a .png or .jpg")
+      ->type_name("OUT");
   demo->add_option("--seed", o.seed, "Of the embedded scene and of the simulated user")
       ->check(CLI::NonNegativeNumber);
   demo->add_option("--policy", o.policy, "How questions are chosen, e.g. adaptive, oain")

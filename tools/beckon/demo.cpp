@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -12,9 +13,11 @@
 #include "services/base/run_loop.h"
 #include "tools/beckon/bus_watch.h"
 #include "tools/beckon/catalogue.h"
+#include "tools/beckon/demo_picture.h"
 #include "tools/beckon/fleet.h"
 #include "tools/beckon/private_bus.h"
 #include "tools/beckon/run_folder.h"
+#include "tools/beckon/scene_check.h"
 #include "tools/beckon/session_report.h"
 #include "tools/beckon/supervisor.h"
 
@@ -23,6 +26,7 @@ namespace {
 
 constexpr Utime kLook_us = 50'000;
 constexpr Utime kLastTask_us = 2 * kSecond;
+constexpr Utime kHearsay_us = 1'200'000;  // services say once a second how they are
 constexpr int kTruthPatience_ms = 60'000;
 constexpr int kHopeless = 6;      // deaths in a row
 constexpr int kBadInputExit = 2;  // of every Beckon program
@@ -35,9 +39,13 @@ class Demo {
         fleet_(std::move(fleet)),
         catalogue_(std::move(catalogue)),
         loop_(loop),
+        bus_(bus),
         supervisor_(loop, steady_, [this](const Death& death) { OnDeath(death); }),
         watch_(bus, clock_, steady_, options_.user,
-               [this](const SessionRecord& record) { OnEnd(record); }) {}
+               [this](const SessionRecord& record) { OnEnd(record); }),
+        check_(CountImages(options_.input)) {
+    Listen();
+  }
 
   /// An Error where input was bad, else the exit code.
   Result<int> Run() {
@@ -48,6 +56,10 @@ class Demo {
     supervisor_.Stop("logger", SIGINT, 2000);  // it writes what it holds
     supervisor_.Stop();
     if (bad_input_) return *bad_input_;
+    if (!options_.picture.empty() && !loop_.interrupted()) {
+      if (auto drawn = WriteDemoPicture(options_.picture, story_); !drawn && failure_.empty())
+        return drawn.error();
+    }
     if (!failure_.empty()) {
       std::fprintf(stderr, "beckon demo: %s (logs: %s)\n", failure_.c_str(),
                    fleet_.run_dir.c_str());
@@ -57,6 +69,17 @@ class Demo {
 
  private:
   bool simulated() const { return options_.front_end == "simulated"; }
+
+  void Listen() {
+    bus_.Subscribe<msg::Scene>([this](msg::Scene scene) {
+      check_.OnScene(scene);
+      story_.OnScene(std::move(scene));
+    });
+    if (options_.picture.empty()) return;
+    bus_.Subscribe<msg::Frame>([this](msg::Frame frame) { story_.OnFrame(std::move(frame)); }, 1);
+    bus_.Subscribe<msg::Poses>([this](msg::Poses poses) { story_.OnPoses(std::move(poses)); });
+    bus_.Subscribe<msg::Query>([this](const msg::Query& query) { story_.OnQuery(query); });
+  }
 
   Status StartServices() {
     if (!options_.record.empty()) {
@@ -107,29 +130,40 @@ class Demo {
   }
 
   void Look() {
-    const bool table = watch_.saw_table();
-    if (watch_.observer().last_news() > news_) news_ = watch_.observer().last_news();
-    if (table && !had_table_) news_ = steady_.Now();
-    had_table_ = table;
-    const double silent_s = static_cast<double>(steady_.Now() - news_) / kSecond;
-    if (simulated() && silent_s > options_.timeout_s) Fail(Missing());
+    const Utime now = steady_.Now();
+    news_ = std::max(news_, watch_.observer().last_news());
+    if (check_.usable() && !std::exchange(was_usable_, true)) news_ = now;
+    if (!check_.usable() && check_.complete()) {
+      if (!hopeless_since_) hopeless_since_ = now;
+      if (now - *hopeless_since_ > kHearsay_us) return RefuseInput();
+    }
+    const double silent_s = static_cast<double>(now - news_) / kSecond;
+    if (!simulated() || silent_s <= options_.timeout_s) return;
+    if (check_.saw_scene() && !check_.usable()) return RefuseInput();
+    Fail(Missing());
+  }
+
+  /// Nobody can talk about what is not seen. The embedded scene is ours: no fault of the user's.
+  void RefuseInput() {
+    const auto* status = watch_.StatusOf("perception");
+    const std::string perception = status != nullptr ? status->state : "";
+    if (!options_.input.empty())
+      return BadInput(check_.Complaint("--input " + options_.input, perception));
+    Fail(check_.Complaint("the embedded scene " + std::to_string(options_.seed), perception));
   }
 
   std::string Missing() const {
     const std::string after =
         " after " + std::to_string(static_cast<int>(options_.timeout_s)) + " s: ";
-    if (!watch_.saw_scene())
+    if (!check_.saw_scene())
       return "no scene came" + after + watch_.Says("perception") + "; " + watch_.Says("capture");
-    if (!watch_.saw_table()) return "perception saw no table" + after + watch_.Says("perception");
-    if (watch_.observer().questions() == 0) {
-      return "no question came" + after + watch_.Says("intention") + "; " +
-             watch_.Says("ui_bridge");
-    }
-    return "the conversation stands still" + after + watch_.Says("intention") + "; " +
-           watch_.Says("ui_bridge");
+    const std::string both = watch_.Says("intention") + "; " + watch_.Says("ui_bridge");
+    if (watch_.observer().questions() == 0) return "no question came" + after + both;
+    return "the conversation stands still" + after + both;
   }
 
   void OnEnd(const SessionRecord& record) {
+    story_.OnEnd(record);
     if (simulated() || options_.headless) {
       std::printf("%s\n", ReportLine(record, want_ ? &*want_ : nullptr, truth_).c_str());
       std::fflush(stdout);
@@ -178,11 +212,15 @@ class Demo {
   const FleetConfig fleet_;
   const Catalogue catalogue_;
   RunLoop& loop_;
+  Bus& bus_;
   const SystemClock clock_;
   const SteadyClock steady_;
   Supervisor supervisor_;
   BusWatch watch_;
-  bool had_table_ = false;
+  SceneCheck check_;
+  DemoStory story_;
+  bool was_usable_ = false;
+  std::optional<Utime> hopeless_since_;
   Utime news_ = 0;
   SceneTruth truth_;
   std::optional<Want> want_;
@@ -206,6 +244,9 @@ Status Complete(DemoOptions& options, const Catalogue& catalogue) {
   }
   if (!options.input.empty() && !fs::exists(options.input)) {
     return Error{"--input " + options.input + ": there is no such file or folder"};
+  }
+  if (!options.picture.empty()) {
+    if (auto right = CheckPicturePath(options.picture); !right) return right;
   }
   if (!options.record.empty() && fs::exists(options.record)) {
     return Error{"--record " + options.record +

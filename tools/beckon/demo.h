@@ -16,20 +16,21 @@ struct DemoOptions {
   bool headless = false;
   std::string db;  // empty = a temporary one
   int port = 0;
-  std::string record;  // log to write; empty = none
-  int seed =
-      3;  // of the embedded scene; this one has a carton, a cup and a bottle among its objects
+  std::string record;   // log to write; empty = none
+  std::string picture;  // of what was seen and asked, to write; empty = none
+  // Of the embedded scene; this one has a carton, a cup and a bottle among its objects.
+  int seed = 3;
   std::string policy;
   std::string user = "demo";
   double think_s = 0;     // of the simulated user, before each answer
   double flip = 0;        // chance that it answers wrongly
   double timeout_s = 30;  // without anything new
-  std::string
-      logs;  // folder for the services' logs; empty = a temporary one, kept where it went wrong
+  // Folder for the services' logs; empty = a temporary one, kept where it went wrong.
+  std::string logs;
 };
 
 /// Runs it. 0: done, and every task of a simulated user was right; 1: not so (said in one line on
-/// standard error). Bad input is an Error.
+/// standard error). Bad input is an Error, an image without a table or without objects too.
 Result<int> RunDemo(const DemoOptions& options);
 
 }  // namespace beckon::tool

@@ -69,8 +69,11 @@ void SessionObserver::OnAnswer(const msg::Answer& answer, Utime now) {
   last_news_ = now;
   running.answered_at = answer.utime;
   const auto likeliest = std::ranges::max_element(answer.likelihoods) - answer.likelihoods.begin();
-  running.record.answers.push_back({answer.query_id, query->second.kind, query->second.text,
-                                    query->second.options[static_cast<size_t>(likeliest)].text});
+  const msg::Query& asked = query->second;
+  const bool what_is_it = asked.kind == msg::QueryKind::kWhatIsIt && !asked.objects.empty();
+  running.record.answers.push_back({answer.query_id, asked.kind, asked.text,
+                                    asked.options[static_cast<size_t>(likeliest)].text,
+                                    what_is_it ? asked.objects.front().object_id : 0});
 }
 
 void SessionObserver::OnTask(const msg::Task& task, Utime now) {

@@ -18,6 +18,7 @@ struct GivenAnswer {
   msg::QueryKind kind = msg::QueryKind::kFull;
   std::string question;
   std::string answer;  // the likeliest option's words
+  int object_id = 0;   // of a kWhatIsIt
 };
 
 /// One conversation. Times are of when messages were heard, but for answer_to_query_ms, which goes

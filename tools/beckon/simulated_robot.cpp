@@ -22,8 +22,8 @@ std::vector<msg::TaskStatus> SimulatedRobot::OnTask(const msg::Task& task, Utime
     say(msg::TaskState::kFailed, "came too late");
   } else {
     done_.insert(task.task_id);
-    say(msg::TaskState::kAccepted, "simulated robot");
-    say(msg::TaskState::kDone, "simulated robot");
+    say(msg::TaskState::kAccepted, "");
+    say(msg::TaskState::kDone, "it is a simulated one, nothing moved");
   }
   return statuses;
 }
