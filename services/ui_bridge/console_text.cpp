@@ -27,7 +27,23 @@ bool IsYesNo(const msg::Query& query) {
 
 std::string HowToAnswer(const msg::Query& query) {
   return IsYesNo(query) ? "y = yes, n = no"
-                        : "1-" + std::to_string(query.options.size()) + " = that option";
+                        : "1 to " + std::to_string(query.options.size()) + " = that one";
+}
+
+/// "SprayCan" -> "spray can".
+std::string Noun(const std::string& category) {
+  std::string noun;
+  for (const unsigned char c : category) {
+    if (std::isupper(c) != 0 && !noun.empty()) noun += ' ';
+    noun += static_cast<char>(std::tolower(c));
+  }
+  return noun;
+}
+
+std::string Name(const msg::SceneObject& object, const ToldCategories& told) {
+  if (const auto said = told.find(object.id); said != told.end()) return Noun(said->second);
+  if (object.category == msg::kUnknownCategory) return "something unknown";
+  return Noun(object.category) + (object.ask_user ? ", perhaps" : "");
 }
 
 std::vector<const msg::SceneObject*> FromLeft(const msg::Scene& scene) {
@@ -53,10 +69,20 @@ std::string Whereabouts(const msg::Scene& scene, int object_id) {
 }
 
 ConsoleInput Unknown(const std::string& line, const msg::Query* query) {
-  const std::string can =
-      query != nullptr ? HowToAnswer(*query) + ", u = undo, 0 = none of these, s = stop, q = quit"
-                       : "there is no question to answer; s = stop, q = quit";
+  const std::string can = query != nullptr ? "please type " + HowToAnswer(*query) + "; ? = help"
+                                           : "there is no question to answer; ? = help";
   return {Kind::kUnknown, 0, "'" + line.substr(0, 40) + "': " + can};
+}
+
+/// A line across the terminal.
+std::string Rule() { return std::string(60, '-') + "\n"; }
+
+/// "-> number 2 of 6 from the left, 101 cm away" where the question is about one object.
+std::string PointAt(const msg::Query& query, const msg::Scene* scene) {
+  if (scene == nullptr || query.objects.size() != 1) return {};
+  if (query.any_object && query.kind != msg::QueryKind::kWhatIsIt) return {};
+  const std::string where = Whereabouts(*scene, query.objects.front().object_id);
+  return where.empty() ? "" : "  -> " + where + "\n";
 }
 
 }  // namespace
@@ -67,7 +93,8 @@ ConsoleInput ParseLine(const std::string& line, const msg::Query* query) {
       {"0", Kind::kNoneOfThese}, {"none", Kind::kNoneOfThese}, {"noneofthese", Kind::kNoneOfThese},
       {"s", Kind::kStop},        {"stop", Kind::kStop},        {"r", Kind::kResume},
       {"resume", Kind::kResume}, {"q", Kind::kQuit},           {"quit", Kind::kQuit},
-      {"exit", Kind::kQuit},     {"new", Kind::kNew},          {"", Kind::kNothing}};
+      {"exit", Kind::kQuit},     {"new", Kind::kNew},          {"", Kind::kNothing},
+      {"?", Kind::kHelp},        {"h", Kind::kHelp},           {"help", Kind::kHelp}};
   const std::string text = Normalised(line);
   if (const auto word = kWords.find(text); word != kWords.end()) return {word->second, 0, {}};
   if (query == nullptr) return Unknown(line, query);
@@ -83,34 +110,46 @@ ConsoleInput ParseLine(const std::string& line, const msg::Query* query) {
   return Unknown(line, query);
 }
 
-std::string RenderScene(const msg::Scene& scene) {
+std::string RenderWelcome() {
+  return "\nThink of one thing on the table, and of what the robot should do with it:\n"
+         "grasp, move, push, open it, drink or pour from it, ...\n"
+         "Beckon finds out by asking as little as it can.\n";
+}
+
+std::string RenderHelp(const msg::Query* query) {
+  return (query != nullptr ? "  " + HowToAnswer(*query) + "\n" : "") +
+         "  u = undo the last answer   0 = none of these\n"
+         "  s = stop everything        q = quit\n";
+}
+
+std::string RenderScene(const msg::Scene& scene, const ToldCategories& told) {
   if (scene.objects.empty()) return "Nothing is seen on the table.\n";
   std::string text = "\nOn the table, from left to right:\n";
   int number = 0;
   for (const auto* object : FromLeft(scene)) {
-    text += "  " + std::to_string(++number) + ". " + object->category +
-            (object->ask_user ? "? " : " ") + "(" + Distance(*object) + ")\n";
+    text += "  " + std::to_string(++number) + ". " + Name(*object, told) + " (" +
+            Distance(*object) + ")\n";
   }
   return text;
 }
 
-std::string RenderQuestion(const msg::Query& query, const msg::Scene* scene, bool bold) {
-  std::string text = "\nQuestion " + std::to_string(query.questions_asked + 1);
+std::string RenderQuestion(const msg::Query& query, const msg::Scene* scene,
+                           const QuestionStyle& style) {
+  std::string text = style.terminal ? "\n" + Rule() : "\n";
+  text += "Question " + std::to_string(query.questions_asked + 1);
   const auto left = std::lround(query.expected_questions - 1);
   if (left >= 1) text += ", about " + std::to_string(left) + " more";
-  text += bold ? "\n\n  \x1b[1m" + query.text + "\x1b[0m\n\n" : "\n\n  " + query.text + "\n\n";
-  if (scene != nullptr && query.kind == msg::QueryKind::kWhatIsIt && !query.objects.empty()) {
-    const std::string where = Whereabouts(*scene, query.objects.front().object_id);
-    if (!where.empty()) text += "  (" + where + ")\n\n";
-  }
+  text +=
+      style.terminal ? "\n\n  \x1b[1m" + query.text + "\x1b[0m\n" : "\n\n  " + query.text + "\n";
+  text += PointAt(query, scene) + "\n";
   if (!IsYesNo(query)) {
     for (size_t i = 0; i < query.options.size(); ++i) {
       text += "  " + std::to_string(i + 1) + "  " + query.options[i].text + "\n";
     }
     text += "\n";
   }
-  return text + "  (" + HowToAnswer(query) +
-         ", u = undo, 0 = none of these, s = stop, q = quit)\n> ";
+  return text + (style.brief ? "  " + HowToAnswer(query) + ", ? = help\n" : RenderHelp(&query)) +
+         "> ";
 }
 
 std::string RenderSession(const msg::Session& event) {
@@ -118,9 +157,9 @@ std::string RenderSession(const msg::Session& event) {
     case msg::SessionKind::kBegun:
       return event.text;
     case msg::SessionKind::kConfirmed:
-      return "Confirmed after " + std::to_string(event.questions) +
-             (event.questions == 1 ? " answer" : " answers") +
-             (event.text.empty() ? "." : ": " + event.text);
+      return "\nThe robot was told" + (event.text.empty() ? "." : ": " + event.text) + " (" +
+             std::to_string(event.questions) +
+             (event.questions == 1 ? " question)" : " questions)");
     case msg::SessionKind::kAbandoned:
       return "The conversation ended without a task" +
              (event.text.empty() ? "." : ": " + event.text);

@@ -1,11 +1,13 @@
 // Front end "console": questions as text, answers as typed lines, on a terminal or through pipes.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "services/base/run_loop.h"
 #include "services/ui_bridge/console_text.h"
@@ -16,6 +18,8 @@ namespace {
 
 constexpr size_t kMaxLine = 4096;
 constexpr Utime kFilePoll_us = 20'000;
+constexpr Utime kRobotsWord_us = 1'500'000;
+constexpr double kSamePlace_m = 0.03;
 
 struct ConsoleConfig {
   double seconds_per_question = 4;  // s, to read, decide and type
@@ -32,7 +36,10 @@ class ConsoleFrontEnd final : public FrontEnd {
         setup_(setup),
         terminal_in_(isatty(STDIN_FILENO) == 1),
         terminal_out_(isatty(STDOUT_FILENO) == 1) {}
-  ~ConsoleFrontEnd() override { StopReading(); }
+  ~ConsoleFrontEnd() override {
+    StopReading();
+    if (offer_) setup_.loop.Cancel(*offer_);
+  }
 
   msg::Interface Announce() const override {
     msg::Interface interface;
@@ -46,6 +53,7 @@ class ConsoleFrontEnd final : public FrontEnd {
   }
 
   void Begin() override {
+    if (terminal_in_) Print(RenderWelcome());
     try {
       setup_.loop.AddFd(STDIN_FILENO, [this] { Read(); });
       watching_ = true;
@@ -59,8 +67,10 @@ class ConsoleFrontEnd final : public FrontEnd {
     query_ = query;
     answered_ = false;
     between_ = false;
-    if (scene_ && std::exchange(describe_, false)) Print(RenderScene(*scene_));
-    Print(RenderQuestion(query, scene_ ? &*scene_ : nullptr, terminal_out_));
+    if (scene_ && std::exchange(describe_, false)) Print(RenderScene(*scene_, Told()));
+    const QuestionStyle style{.terminal = terminal_out_, .brief = knows_commands_};
+    Print(RenderQuestion(query, scene_ ? &*scene_ : nullptr, style));
+    knows_commands_ = true;
     UseLines();
   }
 
@@ -69,6 +79,8 @@ class ConsoleFrontEnd final : public FrontEnd {
   void ShowSession(const msg::Session& event) override {
     if (const std::string text = RenderSession(event); !text.empty()) Print(text + "\n");
     if (event.kind == msg::SessionKind::kBegun) in_session_ = describe_ = true;
+    if (event.kind == msg::SessionKind::kConfirmed) robot_at_work_ = true;
+    if (event.kind == msg::SessionKind::kBegun) robot_at_work_ = false;
     const bool over = event.kind == msg::SessionKind::kConfirmed ||
                       event.kind == msg::SessionKind::kAbandoned ||
                       event.kind == msg::SessionKind::kIdle;
@@ -81,6 +93,9 @@ class ConsoleFrontEnd final : public FrontEnd {
 
   void ShowTaskStatus(const msg::TaskStatus& status) override {
     Print(RenderTaskStatus(status) + "\n");
+    const bool at_work =
+        status.state == msg::TaskState::kAccepted || status.state == msg::TaskState::kRunning;
+    if (std::exchange(robot_at_work_, at_work) && !at_work && offer_) Offer();
   }
 
   std::string State() const override {
@@ -94,14 +109,28 @@ class ConsoleFrontEnd final : public FrontEnd {
   void AfterSession() {
     if (++sessions_ == setup_.exit_after_sessions) return End();
     between_ = true;
-    if (terminal_in_) return Print("\nEnter = another task, q = quit\n> ");
+    if (terminal_in_) return OfferSoon();
     UseLines();
     // A pipe has nobody to press Enter: whatever comes next belongs to the next conversation.
     if (!ended_ && between_) NewSession();
   }
 
+  /// After what the robot says of its task, which comes at once or not for long.
+  void OfferSoon() {
+    offer_ = setup_.loop.After(robot_at_work_ ? kRobotsWord_us : 0, [this] { Offer(); });
+  }
+
+  void Offer() {
+    setup_.loop.Cancel(*std::exchange(offer_, std::nullopt));
+    const int n = setup_.exit_after_sessions;
+    const std::string which =
+        n > 0 ? " (" + std::to_string(sessions_ + 1) + " of " + std::to_string(n) + ")" : "";
+    Print("\nEnter = another task" + which + ", q = quit\n> ");
+  }
+
   void NewSession() {
     between_ = false;
+    if (offer_) setup_.loop.Cancel(*std::exchange(offer_, std::nullopt));
     setup_.sink.Request(msg::SessionKind::kRequestStart);
   }
 
@@ -157,6 +186,7 @@ class ConsoleFrontEnd final : public FrontEnd {
       case Kind::kOption:
         if (answered_) return Print("That is answered already; u takes it back.\n> ");
         answered_ = true;
+        Remember(*query_, input.option);
         return setup_.sink.Answer(query_->id, OneHot(input.option, query_->options.size()));
       case Kind::kUndo:
         return setup_.sink.Request(Request::kRequestUndo);
@@ -173,9 +203,31 @@ class ConsoleFrontEnd final : public FrontEnd {
       case Kind::kNothing:
         if (between_) NewSession();
         return;
+      case Kind::kHelp:
+        return Print(RenderHelp(query_ ? &*query_ : nullptr) + "> ");
       case Kind::kUnknown:
         return Print(input.complaint + "\n> ");
     }
+  }
+
+  /// What the user said an object is goes for that object where it stands, not for its number.
+  void Remember(const msg::Query& query, size_t option) {
+    if (query.kind != msg::QueryKind::kWhatIsIt || query.objects.empty() || !scene_) return;
+    const int id = query.objects.front().object_id;
+    const auto object = std::ranges::find(scene_->objects, id, &msg::SceneObject::id);
+    const std::string& category = query.options[option].category;
+    if (object != scene_->objects.end() && !category.empty())
+      said_.push_back({object->centroid_W, category});
+  }
+
+  ToldCategories Told() const {
+    ToldCategories told;
+    for (const auto& [centroid_W, category] : said_) {
+      for (const auto& object : scene_->objects) {
+        if ((object.centroid_W - centroid_W).norm() < kSamePlace_m) told[object.id] = category;
+      }
+    }
+    return told;
   }
 
   void Quit() {
@@ -207,7 +259,11 @@ class ConsoleFrontEnd final : public FrontEnd {
   std::string buffer_;             // of the line that is being typed
   std::deque<std::string> lines_;  // not used yet
   std::optional<msg::Scene> scene_;
-  bool describe_ = false;  // the table, with the next question
+  bool describe_ = false;                                      // the table, with the next question
+  bool knows_commands_ = false;                                // they were shown once
+  std::vector<std::pair<Eigen::Vector3d, std::string>> said_;  // what the user said stands where
+  bool robot_at_work_ = false;
+  std::optional<RunLoop::TimerId> offer_;  // of another session
   std::optional<msg::Query> query_;
   bool answered_ = false;
   bool in_session_ = false;

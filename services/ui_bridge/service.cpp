@@ -74,7 +74,11 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   }
 
   void OnTaskStatus(const msg::TaskStatus& status) {
-    if (status.task_id != task_id_ || status.state == task_state_) return;
+    if (status.task_id != task_id_) {
+      early_ = status;  // a robot may be faster than intention's word that it was told
+      return;
+    }
+    if (status.state == task_state_) return;
     task_state_ = status.state;
     front_end_->ShowTaskStatus(status);
   }
@@ -98,6 +102,7 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
       task_state_.reset();
     }
     front_end_->ShowSession(event);
+    if (early_ && early_->task_id == task_id_) OnTaskStatus(*std::exchange(early_, std::nullopt));
   }
   void ShowNotice(const std::string& text) override { front_end_->ShowNotice(text); }
 
@@ -146,6 +151,7 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   std::optional<Utime> finished_at_;
   std::string task_id_;
   std::optional<msg::TaskState> task_state_;
+  std::optional<msg::TaskStatus> early_;
 };
 
 Service::Service(ServiceConfig config, Bus& bus, RunLoop& loop, const Clock& clock,

@@ -66,11 +66,11 @@ TEST(ConsoleText, SaysWhatMayBeTypedInstead) {
 }
 
 TEST(ConsoleText, ShowsQuestionProgressAndOptions) {
-  const auto text = RenderQuestion(YesNo(), nullptr, false);
+  const auto text = RenderQuestion(YesNo(), nullptr, {});
   EXPECT_THAT(text, HasSubstr("Question 3, about 2 more"));
   EXPECT_THAT(text, HasSubstr("Open the carton?"));
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
-  const auto list = RenderQuestion(WhatIsIt(), nullptr, true);
+  const auto list = RenderQuestion(WhatIsIt(), nullptr, {.terminal = true});
   EXPECT_THAT(list, HasSubstr("2  a tin"));
   EXPECT_THAT(list, Not(HasSubstr("more")));
   EXPECT_THAT(list, HasSubstr("\x1b[1mWhat is this?"));
@@ -89,11 +89,38 @@ TEST(ConsoleText, TellsWhereTheObjectStandsThatHasNoName) {
   auto query = WhatIsIt();
   query.kind = msg::QueryKind::kWhatIsIt;
   query.objects = {{1, "Unknown", 1}};
-  EXPECT_THAT(RenderQuestion(query, &scene, false),
+  EXPECT_THAT(RenderQuestion(query, &scene, {}),
               HasSubstr("number 3 of 3 from the left, 50 cm away"));
   query.objects = {{9, "Unknown", 1}};
-  EXPECT_THAT(RenderQuestion(query, &scene, false), Not(HasSubstr("from the left")));
-  EXPECT_THAT(RenderScene(scene), HasSubstr("2. Box? (40 cm away)\n  3. Box (50 cm away)"));
+  EXPECT_THAT(RenderQuestion(query, &scene, {}), Not(HasSubstr("from the left")));
+  EXPECT_THAT(RenderScene(scene, {}),
+              HasSubstr("2. box, perhaps (40 cm away)\n  3. box (50 cm away)"));
+  EXPECT_THAT(RenderScene(scene, {{3, "SprayCan"}}), HasSubstr("2. spray can (40 cm away)"));
+  scene.objects[0].category = msg::kUnknownCategory;
+  EXPECT_THAT(RenderScene(scene, {}), HasSubstr("3. something unknown"));
+}
+
+TEST(ConsoleText, PointsAtTheOneObjectOfAQuestion) {
+  msg::Scene scene;
+  scene.objects.resize(1);
+  scene.objects[0].id = 4;
+  scene.objects[0].centroid_W = {0, 0.5, 0.1};
+  auto query = YesNo();
+  query.any_object = false;
+  query.objects = {{4, "Carton", 1}};
+  EXPECT_THAT(RenderQuestion(query, &scene, {}), HasSubstr("-> number 1 of 1 from the left"));
+  query.any_object = true;
+  EXPECT_THAT(RenderQuestion(query, &scene, {}), Not(HasSubstr("->")));
+}
+
+TEST(ConsoleText, ShowsAllCommandsOnceAndThenOnRequest) {
+  const auto query = YesNo();
+  EXPECT_THAT(RenderQuestion(query, nullptr, {}), HasSubstr("u = undo"));
+  const auto brief = RenderQuestion(query, nullptr, {.brief = true});
+  EXPECT_THAT(brief, HasSubstr("y = yes, n = no, ? = help"));
+  EXPECT_THAT(brief, Not(HasSubstr("undo")));
+  for (const char* line : {"?", "h", "Help"}) EXPECT_EQ(ParseLine(line, &query).kind, Kind::kHelp);
+  EXPECT_THAT(RenderHelp(nullptr), HasSubstr("s = stop"));
 }
 
 TEST(ConsoleText, TellsWhatASessionWaitsForAndHowItEnds) {
@@ -104,7 +131,7 @@ TEST(ConsoleText, TellsWhatASessionWaitsForAndHowItEnds) {
   event.kind = msg::SessionKind::kConfirmed;
   event.text = "open the carton";
   event.questions = 1;
-  EXPECT_EQ(RenderSession(event), "Confirmed after 1 answer: open the carton");
+  EXPECT_EQ(RenderSession(event), "\nThe robot was told: open the carton (1 question)");
   event.kind = msg::SessionKind::kStopped;
   EXPECT_THAT(RenderSession(event), HasSubstr("resume"));
 }

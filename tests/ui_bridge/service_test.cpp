@@ -29,7 +29,12 @@ class Agreeable final : public FrontEnd {
     if (event.kind == msg::SessionKind::kConfirmed) sink_.Finish();
   }
   void ShowNotice(const std::string&) override {}
+  void ShowTaskStatus(const msg::TaskStatus& status) override {
+    task_states.push_back(status.state);
+  }
   std::string State() const override { return "agrees"; }
+
+  static inline std::vector<msg::TaskState> task_states;  // shown to any of them
 
  private:
   FrontEndSink& sink_;
@@ -98,7 +103,9 @@ class ServiceTest : public ::testing::Test {
     bus_->Subscribe<msg::Answer>([this](const msg::Answer& answer) {
       answers_.push_back(answer);
       if (answer.query_id == 1) Ask(2);
-      if (answer.query_id == 2) Announce(msg::SessionKind::kConfirmed);
+      if (answer.query_id != 2) return;
+      if (quick_robot_) ASSERT_TRUE(bus_->Publish(RobotIsDone()));
+      Announce(msg::SessionKind::kConfirmed);
     });
   }
 
@@ -109,6 +116,14 @@ class ServiceTest : public ::testing::Test {
     event.user = "ann";
     event.kind = kind;
     ASSERT_TRUE(bus_->Publish(event));
+  }
+
+  msg::TaskStatus RobotIsDone() const {
+    msg::TaskStatus status;
+    status.utime = clock_.Now();
+    status.task_id = session_;
+    status.state = msg::TaskState::kDone;
+    return status;
   }
 
   void Ask(int64_t id) {
@@ -130,6 +145,7 @@ class ServiceTest : public ::testing::Test {
   std::string session_;
   std::set<std::string> devices_;
   std::vector<msg::Answer> answers_;
+  bool quick_robot_ = false;  // done before intention has said that it was told
 };
 
 TEST_F(ServiceTest, LeadsAConversationAndEndsWhenItsFrontEndIsThrough) {
@@ -145,6 +161,17 @@ TEST_F(ServiceTest, LeadsAConversationAndEndsWhenItsFrontEndIsThrough) {
   EXPECT_EQ(answers_[0].device, DefaultDevice("agreeable"));
   EXPECT_GT(answers_[1].seal.counter, answers_[0].seal.counter);
   EXPECT_THAT(devices_, Contains(DefaultDevice("agreeable")));
+}
+
+TEST_F(ServiceTest, ShowsWhatARobotSaysBeforeTheConfirmationToo) {
+  quick_robot_ = true;
+  Agreeable::task_states.clear();
+  Service service({.user = "ann", .device = "", .exit_after_sessions = 0}, *bus_, loop_, clock_,
+                  steady_);
+  ASSERT_TRUE(service.Add(*Factory("agreeable")));
+  service.Begin();
+  loop_.Run();
+  EXPECT_EQ(Agreeable::task_states, std::vector{msg::TaskState::kDone});
 }
 
 TEST_F(ServiceTest, SeveralFrontEndsHaveNamesOfTheirOwn) {

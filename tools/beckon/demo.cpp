@@ -49,12 +49,14 @@ class Demo {
 
   /// An Error where input was bad, else the exit code.
   Result<int> Run() {
+    if (!simulated()) Greet();
     if (auto started = StartServices(); !started) return started.error();
     news_ = steady_.Now();
     loop_.Every(kLook_us, [this] { Look(); });
     loop_.Run();
     supervisor_.Stop("logger", SIGINT, 2000);  // it writes what it holds
     supervisor_.Stop();
+    if (!simulated()) std::puts("");  // away from a prompt that was not answered
     if (bad_input_) return *bad_input_;
     if (!options_.picture.empty() && !loop_.interrupted()) {
       if (auto drawn = WriteDemoPicture(options_.picture, story_); !drawn && failure_.empty())
@@ -69,6 +71,13 @@ class Demo {
 
  private:
   bool simulated() const { return options_.front_end == "simulated"; }
+
+  void Greet() const {
+    const std::string what =
+        options_.input.empty() ? "a made-up table (--input FILE for your own)" : options_.input;
+    std::printf("Five services start and look at %s ...\n", what.c_str());
+    std::fflush(stdout);
+  }
 
   void Listen() {
     bus_.Subscribe<msg::Scene>([this](msg::Scene scene) {
