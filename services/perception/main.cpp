@@ -15,6 +15,7 @@ struct Options {
   AppOptions app;
   OfflineOptions offline;
   Overrides overrides;
+  bool list_categories = false;
 };
 
 void AddOptions(CLI::App& app, Options& o) {
@@ -25,6 +26,8 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_flag("--no-categories", o.overrides.no_categories,
                "Do not say of which category objects are");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
+  app.add_flag("--list-categories", o.list_categories,
+               "Print the categories the model knows, one a line, and leave");
   app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));
   app.add_option("--json", o.offline.json_file, "The result (default: standard output)");
@@ -62,6 +65,7 @@ int main(int argc, char** argv) {
     if (!config) return config.error();
     cv::setNumThreads(config->perceiver.threads);
     if (options.app.check_config) return {};
+    if (options.list_categories) return ListCategories(*config);
     if (!options.offline.input.empty()) return PerceiveFile(options.offline, *config);
     return Serve(*config, options.app.lcm_url);
   });

@@ -111,6 +111,14 @@ std::string ToJson(const Perception& perception) {
          "\n";
 }
 
+Status ListCategories(const PerceptionConfig& config) {
+  auto categoriser = LoadCategoriser(config);
+  if (!categoriser) return categoriser.error();
+  if (!categoriser->has_value()) return {};
+  for (const auto& name : (*categoriser)->categories()) std::cout << name << "\n";
+  return {};
+}
+
 Status PerceiveFile(const OfflineOptions& options, const PerceptionConfig& config) {
   auto cloud = ReadCloudFile(options.input);
   if (!cloud) return cloud.error();

@@ -18,6 +18,10 @@ struct OfflineOptions {
 /// Fails on files that cannot be read or written. A scene without a table is no failure.
 Status PerceiveFile(const OfflineOptions& options, const PerceptionConfig& config);
 
+/// Prints the names of the configured model's categories, one a line; nothing where categories are
+/// off.
+Status ListCategories(const PerceptionConfig& config);
+
 /// What the JSON says: {"table": {"normal", "offset_m"} | null, "reason", "objects": [..],
 /// "timing_ms": {..}, "steps_ms": {..}}; "reason" only where there is no table.
 std::string ToJson(const Perception& perception);

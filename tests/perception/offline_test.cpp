@@ -166,6 +166,7 @@ TEST_F(OfflineTest, ConfigurationsAndVersionsCanBeAsked) {
       0);
   EXPECT_THAT(Execute("--version").output, testing::StartsWith("beckon-perception "));
   EXPECT_THAT(Execute("--help").output, testing::HasSubstr("--segmentation"));
+  EXPECT_THAT(Execute("--list-categories").output, testing::HasSubstr("Carton\nCup\n"));
 }
 
 TEST_F(OfflineTest, PerceivesRealScenesTheSameEveryTime) {

@@ -25,6 +25,17 @@ TEST(Doctor, KnowsWhichBuffersLoseFrames) {
   EXPECT_EQ(CheckSocketBuffers("udpm://239.255.76.67:7667?ttl=0", 4'194'304).grade, Grade::kFail);
 }
 
+TEST(Doctor, ComparesWhatIsRecognisedWithWhatCanBeWanted) {
+  EXPECT_EQ(CompareCategories({"Box", "Cup"}, {"Box", "Cup"}).grade, Grade::kOk);
+  const auto unwanted = CompareCategories({"Box", "Vase"}, {"Box"});
+  EXPECT_EQ(unwanted.grade, Grade::kWarn);
+  EXPECT_THAT(unwanted.detail, HasSubstr("the model knows Vase"));
+  EXPECT_THAT(unwanted.remedy, HasSubstr("affordances.toml [categories]"));
+  const auto both = CompareCategories({"Box", "Vase"}, {"Box", "Pan", "Plate"});
+  EXPECT_THAT(both.detail, HasSubstr("has Pan, Plate, which the model never recognises"));
+  EXPECT_THAT(both.remedy, HasSubstr("train"));
+}
+
 TEST(Doctor, FailsOnlyWhereSomethingFailed) {
   std::vector<Finding> findings{{Grade::kOk, "a", "fine", ""},
                                 {Grade::kWarn, "b", "so so", "do this"}};

@@ -104,7 +104,9 @@ class ServiceTest : public ::testing::Test {
       answers_.push_back(answer);
       if (answer.query_id == 1) Ask(2);
       if (answer.query_id != 2) return;
-      if (quick_robot_) ASSERT_TRUE(bus_->Publish(RobotIsDone()));
+      if (quick_robot_) {
+        ASSERT_TRUE(bus_->Publish(RobotIsDone()));
+      }
       Announce(msg::SessionKind::kConfirmed);
     });
   }

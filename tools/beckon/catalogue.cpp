@@ -71,4 +71,10 @@ size_t Catalogue::pairs() const {
   return n;
 }
 
+std::vector<std::string> Catalogue::categories() const {
+  std::vector<std::string> names;
+  for (const auto& [category, actions] : actions_) names.push_back(category);
+  return names;
+}
+
 }  // namespace beckon::tool

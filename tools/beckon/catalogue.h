@@ -30,6 +30,8 @@ class Catalogue {
   Result<Want> Suggest(const SceneTruth& truth) const;
 
   size_t pairs() const;
+  /// In alphabetical order.
+  std::vector<std::string> categories() const;
 
  private:
   std::map<std::string, std::vector<std::string>> actions_;  // by category

@@ -112,23 +112,34 @@ Finding CheckCamera() {
               "use files, logs or the embedded scene");
 }
 
-/// Runs `program args` and grades it by its exit code.
-Finding CheckProgram(const std::string& what, const std::string& program,
-                     const std::vector<std::string>& args, const std::string& fine,
-                     const std::string& remedy) {
+/// Runs a program to its end: what it printed, in lines, or why that is nothing.
+Result<std::vector<std::string>> Ask(const std::string& program,
+                                     const std::vector<std::string>& args) {
   auto folder = RunFolder::Make("", "beckon-doctor");
-  if (!folder) return Fail(what, folder.error().message, "make room for temporary files");
+  if (!folder) return folder.error();
   ProcessSpec spec;
-  spec.name = what;
+  spec.name = fs::path(program).filename();
   spec.program = program;
   spec.args = args;
   spec.log_file = folder->path() + "/log";
   auto process = ChildProcess::Start(spec);
-  if (!process) return Fail(what, process.error().message, "build or install it");
+  if (!process) return process.error();
   const auto exit = process->Wait(kProgramPatience_ms);
-  if (!exit) return Fail(what, "did not come to an end", remedy);
-  if (exit->code == 0 && exit->signal == 0) return Ok(what, fine);
-  return Fail(what, exit->Text() + ": " + LastLine(spec.log_file), remedy);
+  if (!exit) return Error{"did not come to an end"};
+  if (exit->code != 0 || exit->signal != 0)
+    return Error{exit->Text() + ": " + LastLine(spec.log_file)};
+  std::vector<std::string> lines;
+  std::ifstream log(spec.log_file);
+  for (std::string line; std::getline(log, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Grades a program by its exit code.
+Finding CheckProgram(const std::string& what, const std::string& program,
+                     const std::vector<std::string>& args, const std::string& fine,
+                     const std::string& remedy) {
+  const auto answer = Ask(program, args);
+  return answer ? Ok(what, fine) : Fail(what, answer.error().message, remedy);
 }
 
 std::vector<Finding> CheckServices(const std::string& bin_dir) {
@@ -163,6 +174,19 @@ Finding CheckAffordances() {
     return Fail("affordances", catalogue.error().message,
                 "restore the file that ships with Beckon");
   return Ok("affordances", std::to_string(catalogue->pairs()) + " pairs of category and action");
+}
+
+/// The model is perception's own: perception is asked what it knows.
+Finding CheckCategories(const std::string& bin_dir) {
+  const std::string what = "categories";
+  const std::string program = bin_dir + "/beckon-perception";
+  auto catalogue = Catalogue::Load(SharedFile("affordances.toml"));
+  if (!catalogue || !fs::exists(program) || !fs::exists(SharedFile("categories.model")))
+    return Ok(what, "not compared: model, affordances or perception are not here");
+  const auto known = Ask(program, {"--model", SharedFile("categories.model"), "--list-categories"});
+  if (!known)
+    return Fail(what, known.error().message, "restore the model that ships, or train one anew");
+  return CompareCategories(*known, catalogue->categories());
 }
 
 Finding CheckDatabase(const DoctorOptions& options) {
@@ -215,6 +239,33 @@ Finding CheckSocketBuffers(const std::string& lcm_url, long rmem_max) {
   return Ok(what, "up to " + std::to_string(rmem_max) + " bytes");
 }
 
+Finding CompareCategories(const std::vector<std::string>& of_model,
+                          const std::vector<std::string>& of_affordances) {
+  const auto only_in = [](const auto& these, const auto& those) {
+    std::string names;
+    for (const auto& name : these) {
+      if (std::ranges::count(those, name) == 0) names += (names.empty() ? "" : ", ") + name;
+    }
+    return names;
+  };
+  const std::string unwanted = only_in(of_model, of_affordances);
+  const std::string unseen = only_in(of_affordances, of_model);
+  const std::string what = "categories";
+  if (unwanted.empty() && unseen.empty())
+    return Ok(what, "the model and affordances.toml agree on " + std::to_string(of_model.size()));
+  std::string detail, remedy;
+  if (!unwanted.empty()) {
+    detail = "the model knows " + unwanted + ", but nothing can be done with it";
+    remedy = "name it and its actions in affordances.toml [categories]";
+  }
+  if (!unseen.empty()) {
+    const char* const also = unwanted.empty() ? "" : "; ";
+    detail += also + ("affordances.toml has " + unseen + ", which the model never recognises");
+    remedy += also + std::string("train a model with examples of it (docs/model.md)");
+  }
+  return Warn(what, detail, remedy);
+}
+
 std::vector<Finding> Examine(const DoctorOptions& options) {
   long rmem_max = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> rmem_max;
@@ -227,6 +278,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
   for (auto& finding : CheckServices(options.bin_dir)) findings.push_back(std::move(finding));
   findings.push_back(CheckModel());
   findings.push_back(CheckAffordances());
+  findings.push_back(CheckCategories(options.bin_dir));
   findings.push_back(CheckDatabase(options));
   return findings;
 }

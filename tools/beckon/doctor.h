@@ -26,6 +26,11 @@ std::vector<Finding> Examine(const DoctorOptions& options);
 Finding CheckUrl(const std::string& lcm_url);
 Finding CheckSocketBuffers(const std::string& lcm_url, long rmem_max);
 
+/// Whether what is recognised and what can be wanted are the same categories. Both in alphabetical
+/// order.
+Finding CompareCategories(const std::vector<std::string>& of_model,
+                          const std::vector<std::string>& of_affordances);
+
 /// A line for each, and how many were bad.
 std::string Render(const std::vector<Finding>& findings);
 /// 1 where anything failed.
