@@ -146,6 +146,12 @@ void Dialogue::Undo() {
 }
 
 void Dialogue::NoneOfThese() {
+  if (query_ && query_->kind == msg::QueryKind::kWhatIsIt) {
+    // There it is the last option, an answer like any other.
+    std::vector<double> likelihoods(query_->options.size(), 0.0);
+    likelihoods.back() = 1;
+    return Answer(query_->id, likelihoods);
+  }
   if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestNoneOfThese));
 }
 

@@ -304,6 +304,21 @@ TEST_F(DialogueTest, UndoAndNoneOfTheseAreSaidOnce) {
   EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 1);
 }
 
+TEST_F(DialogueTest, NoneOfTheseIsTheLastOptionWhereAnObjectIsAskedAbout) {
+  const auto id = Begin();
+  msg::Query query;
+  query.id = 1;
+  query.session_id = id;
+  query.user = "ann";
+  query.kind = msg::QueryKind::kWhatIsIt;
+  query.options = {{.text = "a box"}, {.text = "a cup"}, {.text = "None of these"}};
+  dialogue_.OnQuery(query);
+  dialogue_.NoneOfThese();
+  EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 0);
+  ASSERT_EQ(out_.answers.size(), 1u);
+  EXPECT_THAT(out_.answers[0].likelihoods, ElementsAre(0, 0, 1));
+}
+
 TEST_F(DialogueTest, SaysSoWhenIntentionFallsSilent) {
   Begin();
   Pass(6 * kSecond);
