@@ -164,7 +164,7 @@ std::string RenderSession(const msg::Session& event) {
       return "The conversation ended without a task" +
              (event.text.empty() ? "." : ": " + event.text);
     case msg::SessionKind::kStopped:
-      return "STOPPED." + (event.text.empty() ? "" : " " + event.text) + " Type r to resume.";
+      return "\nSTOPPED. Type r to resume.";
     default:
       return {};
   }
