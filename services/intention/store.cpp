@@ -78,6 +78,20 @@ Status Prepare(SQLite::Database& database, const std::string& path) {
   return Migrate(database, path);
 }
 
+/// The records in the first column of every row; `what` names one in an error.
+template <typename Record>
+Result<std::vector<Record>> ReadAll(SQLite::Statement& query,
+                                    Result<Record> (*parse)(const std::string&),
+                                    const std::string& what) {
+  std::vector<Record> records;
+  while (query.executeStep()) {
+    auto record = parse(query.getColumn(0).getString());
+    if (!record) return Error{what + " cannot be read: " + record.error().message};
+    records.push_back(*std::move(record));
+  }
+  return records;
+}
+
 }  // namespace
 
 Store::Store(std::string path, std::string machine, std::unique_ptr<SQLite::Database> database)
@@ -104,9 +118,6 @@ Result<std::unique_ptr<Store>> Store::Open(const std::string& path, const std::s
   }
 }
 
-// ---- Reading
-// --------------------------------------------------------------------------------------
-
 Result<std::vector<SessionRecord>> Store::SessionsOf(const std::string& user) {
   return Try<std::vector<SessionRecord>>([&]() -> Result<std::vector<SessionRecord>> {
     SQLite::Statement query(
@@ -115,26 +126,14 @@ Result<std::vector<SessionRecord>> Store::SessionsOf(const std::string& user) {
         "ORDER BY utime DESC, origin DESC, seq DESC LIMIT ?) ORDER BY utime, origin, seq");
     query.bind(1, user);
     query.bind(2, kMostSessions);
-    std::vector<SessionRecord> sessions;
-    while (query.executeStep()) {
-      auto session = SessionFromBody(query.getColumn(0).getString());
-      if (!session) return Error{path_ + ": a session cannot be read: " + session.error().message};
-      sessions.push_back(*std::move(session));
-    }
-    return sessions;
+    return ReadAll(query, SessionFromBody, path_ + ": a session");
   });
 }
 
 Result<std::vector<SessionRecord>> Store::AllSessions() {
   return Try<std::vector<SessionRecord>>([&]() -> Result<std::vector<SessionRecord>> {
     SQLite::Statement query(*database_, "SELECT body FROM sessions ORDER BY utime, origin, seq");
-    std::vector<SessionRecord> sessions;
-    while (query.executeStep()) {
-      auto session = SessionFromBody(query.getColumn(0).getString());
-      if (!session) return Error{path_ + ": a session cannot be read: " + session.error().message};
-      sessions.push_back(*std::move(session));
-    }
-    return sessions;
+    return ReadAll(query, SessionFromBody, path_ + ": a session");
   });
 }
 
@@ -146,13 +145,7 @@ Result<std::vector<LabelRecord>> Store::LabelsOf(const std::string& source) {
         "ORDER BY utime DESC, origin DESC, seq DESC LIMIT ?) ORDER BY utime, origin, seq");
     query.bind(1, source);
     query.bind(2, kMostLabels);
-    std::vector<LabelRecord> labels;
-    while (query.executeStep()) {
-      auto label = LabelFromBody(query.getColumn(0).getString());
-      if (!label) return Error{path_ + ": a label cannot be read: " + label.error().message};
-      labels.push_back(*std::move(label));
-    }
-    return labels;
+    return ReadAll(query, LabelFromBody, path_ + ": a label");
   });
 }
 

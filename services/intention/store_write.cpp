@@ -16,9 +16,6 @@ constexpr auto kImmediate = SQLite::TransactionBehavior::IMMEDIATE;
 
 }  // namespace
 
-// ---- Writing
-// --------------------------------------------------------------------------------------
-
 bool Store::Has(const std::string& uid) {
   SQLite::Statement query(*database_, "SELECT 1 FROM rows WHERE uid = ?");
   query.bind(1, uid);

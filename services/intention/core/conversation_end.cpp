@@ -11,9 +11,6 @@ constexpr size_t kRememberedEnds = 32;
 
 }  // namespace
 
-// ---- Ending
-// ---------------------------------------------------------------------------------------
-
 std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) const {
   std::vector<LabelRecord> records;
   for (const GivenLabel& label : talk.interview->Labels()) {
@@ -145,9 +142,6 @@ void Conversation::Resume(const msg::Session& request, Utime now) {
   stopped_ = false;
   Announce(Event(msg::SessionKind::kIdle, now), now);
 }
-
-// ---- Repeating
-// ------------------------------------------------------------------------------------
 
 Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
   const auto pending = tasks_.find(status.task_id);
