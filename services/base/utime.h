@@ -23,7 +23,8 @@ class SystemClock : public Clock {
   Utime Now() const override;
 };
 
-/// Counts up from some fixed moment, whatever happens to the machine's time: for pacing, not for stamps.
+/// Counts up from some fixed moment, whatever happens to the machine's time: for pacing, not for
+/// stamps.
 class SteadyClock : public Clock {
  public:
   Utime Now() const override;
