@@ -139,8 +139,7 @@ void Dialogue::Answer(int64_t query_id, const std::vector<double>& likelihoods) 
   answer_ = {std::move(answer), steady_.Now() + config_.repeat_us};
 }
 
-// Undo and "none of these" are said once: intention takes each as a new wish, so a repetition that
-// crosses its answer would be a second one. Lost ones the user sees and says again.
+// Undo and "none of these" are said once and not repeated; a lost one the user sees and says again.
 void Dialogue::Undo() {
   if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestUndo));
 }
