@@ -9,14 +9,36 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::array kKinds = {QuestionKind::kAction, QuestionKind::kObject, QuestionKind::kFull,
-                               QuestionKind::kCategory, QuestionKind::kSet};
+constexpr std::array kKinds = {QuestionKind::kAction, QuestionKind::kObject,
+                               QuestionKind::kFull,   QuestionKind::kCategory,
+                               QuestionKind::kSet,    QuestionKind::kChoice};
 
 QuestionKind KindNamed(const std::string& name) {
   for (const QuestionKind kind : kKinds) {
     if (Name(kind) == name) return kind;
   }
   return QuestionKind::kFull;
+}
+
+/// Older rows know only yes and no, and only the device that asked for the session.
+AnswerRecord AnswerFrom(const json& body, const std::string& session_device) {
+  AnswerRecord answer;
+  answer.kind = KindNamed(body.at("kind").get<std::string>());
+  if (!body.contains("likelihoods")) {
+    answer.likelihoods = {body.at("yes").get<double>(), body.at("no").get<double>()};
+    answer.meant = body.at("meant_yes").get<bool>() ? 0 : 1;
+    answer.device = session_device;
+    return answer;
+  }
+  body.at("likelihoods").get_to(answer.likelihoods);
+  body.at("meant").get_to(answer.meant);
+  body.at("device").get_to(answer.device);
+  const bool right = answer.likelihoods.size() >= 2 && answer.meant >= 0 &&
+                     answer.meant < static_cast<int>(answer.likelihoods.size());
+  if (!right)
+    throw json::other_error::create(501, "an answer of at least two likelihoods and the meant one",
+                                    &body);
+  return answer;
 }
 
 ordered_json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -52,10 +74,13 @@ std::string ToBody(const SessionRecord& session) {
   body["instance"] = session.instance;
   body["questions"] = session.questions;
   body["posterior"] = session.posterior;
+  body["present"] = session.present;
   body["answers"] = ordered_json::array();
   for (const AnswerRecord& a : session.answers) {
-    body["answers"].push_back(
-        {{"kind", Name(a.kind)}, {"yes", a.yes}, {"no", a.no}, {"meant_yes", a.meant_yes}});
+    body["answers"].push_back({{"kind", Name(a.kind)},
+                               {"likelihoods", a.likelihoods},
+                               {"meant", a.meant},
+                               {"device", a.device}});
   }
   return body.dump();
 }
@@ -88,11 +113,9 @@ Result<SessionRecord> SessionFromBody(const std::string& body) {
     root.at("instance").get_to(session.instance);
     root.at("questions").get_to(session.questions);
     root.at("posterior").get_to(session.posterior);
-    for (const json& a : root.at("answers")) {
-      session.answers.push_back({KindNamed(a.at("kind").get<std::string>()),
-                                 a.at("yes").get<double>(), a.at("no").get<double>(),
-                                 a.at("meant_yes").get<bool>()});
-    }
+    if (root.contains("present")) root.at("present").get_to(session.present);
+    for (const json& a : root.at("answers"))
+      session.answers.push_back(AnswerFrom(a, session.device));
     return session;
   });
 }

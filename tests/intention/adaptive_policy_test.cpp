@@ -10,7 +10,7 @@ namespace {
 class AdaptivePolicy : public testing::Test {
  protected:
   Evidence Said(bool yes, const ErrorModel& errors) const {
-    return {yes ? 1.0 : 0.0, yes ? 0.0 : 1.0, errors.rates};
+    return errors.Hear({yes ? 1.0 : 0.0, yes ? 0.0 : 1.0});
   }
   const Affordances a = TestAffordances();
   const Situation s = MakeSituation(a, Things(a, {{"Mug", 0.3},
@@ -24,7 +24,7 @@ class AdaptivePolicy : public testing::Test {
 
 TEST_F(AdaptivePolicy, PosteriorIsBayes) {
   const ErrorModel errors = ErrorModel::Exact({0.1, 0.05});
-  const auto dialogue = policy->Begin(s, {}, errors, 1);
+  const auto dialogue = policy->Begin(s, {}, Interface::YesNo(errors), 1);
   const int best_before = dialogue->CurrentBelief().best_pair;
   const double p = dialogue->CurrentBelief().best_posterior;
   dialogue->Hear(AskPair(s, best_before), Said(true, errors));
@@ -34,8 +34,8 @@ TEST_F(AdaptivePolicy, PosteriorIsBayes) {
 }
 
 TEST_F(AdaptivePolicy, AsksTheLearntTaskAtOnce) {
-  const UserHistory history(3, {a.FindCategory("Carton"), a.FindAction("Open"), 1, "", {}});
-  const auto dialogue = policy->Begin(s, history, ErrorModel::Exact({}), 1);
+  const UserHistory history(3, {a.FindCategory("Carton"), a.FindAction("Open"), 1, {}, 0, {}});
+  const auto dialogue = policy->Begin(s, history, Interface::YesNo(), 1);
   const int carton = s.Find(2, a.FindAction("Open"));
   ASSERT_EQ(dialogue->Ask(), AskPair(s, carton));
   dialogue->Hear(*dialogue->Ask(), Said(true, ErrorModel::Exact({})));
@@ -43,7 +43,7 @@ TEST_F(AdaptivePolicy, AsksTheLearntTaskAtOnce) {
 }
 
 TEST_F(AdaptivePolicy, NeedsAnAcceptedFullQuery) {
-  const auto dialogue = policy->Begin(s, {}, ErrorModel::Exact({}), 1);
+  const auto dialogue = policy->Begin(s, {}, Interface::YesNo(), 1);
   dialogue->Hear(AskObject(3), Said(true, ErrorModel::Exact({})));
   dialogue->Hear(AskAction(a.FindAction("Squeeze")), Said(true, ErrorModel::Exact({})));
   EXPECT_DOUBLE_EQ(dialogue->CurrentBelief().best_posterior, 1);
@@ -53,15 +53,15 @@ TEST_F(AdaptivePolicy, NeedsAnAcceptedFullQuery) {
 
 TEST_F(AdaptivePolicy, AYesAloneIsNotEnoughOverANoisyLine) {
   const ErrorModel errors = ErrorModel::Exact({0.2, 0.2});
-  const UserHistory habit(30, {a.FindCategory("Carton"), a.FindAction("Open"), 1, "", {}});
-  const auto dialogue = policy->Begin(s, habit, errors, 1);
+  const UserHistory habit(30, {a.FindCategory("Carton"), a.FindAction("Open"), 1, {}, 0, {}});
+  const auto dialogue = policy->Begin(s, habit, Interface::YesNo(errors), 1);
   EXPECT_LE(dialogue->CurrentBelief().best_posterior, 0.9 + 1e-12);  // the cap
   dialogue->Hear(*dialogue->Ask(), Said(true, errors));
   EXPECT_FALSE(dialogue->Accepted());
 }
 
 TEST_F(AdaptivePolicy, ContradictionWithoutNoiseRulesEverythingOut) {
-  const auto dialogue = policy->Begin(s, {}, ErrorModel::Exact({}), 1);
+  const auto dialogue = policy->Begin(s, {}, Interface::YesNo(), 1);
   int asked = 0;
   while (const auto question = dialogue->Ask()) {
     dialogue->Hear(*question, Said(false, ErrorModel::Exact({})));
@@ -76,7 +76,7 @@ TEST_F(AdaptivePolicy, GivesUpWhereNoneOfThePairsIsMeant) {
   config.none_prior = 0.002;
   const ErrorModel errors = ErrorModel::Announced({0.05, 0.05});
   const auto careful = MakeAdaptivePolicy(config);
-  const auto dialogue = careful->Begin(s, {}, errors, 1);
+  const auto dialogue = careful->Begin(s, {}, Interface::YesNo(errors), 1);
   int asked = 0;
   while (const auto question = dialogue->Ask()) {
     dialogue->Hear(*question, Said(false, errors));
@@ -87,13 +87,22 @@ TEST_F(AdaptivePolicy, GivesUpWhereNoneOfThePairsIsMeant) {
 
 TEST_F(AdaptivePolicy, SoftAnswersCountByTheirLikelihood) {
   const ErrorModel exact = ErrorModel::Exact({});
-  const auto dialogue = policy->Begin(s, {}, exact, 1);
+  const auto dialogue = policy->Begin(s, {}, Interface::YesNo(exact), 1);
   const Question question = AskObject(2);
-  dialogue->Hear(question, {0.5, 0.5, exact.rates});  // says nothing
+  dialogue->Hear(question, exact.Hear({0.5, 0.5}));  // says nothing
   const Belief before = dialogue->CurrentBelief();
   EXPECT_EQ(before.possible_pairs, s.pair_count());
-  dialogue->Hear(question, {0.7, 0.3, exact.rates});
+  dialogue->Hear(question, exact.Hear({0.7, 0.3}));
   EXPECT_EQ(dialogue->CurrentBelief().possible_pairs, s.pair_count());  // nothing is pruned
+}
+
+TEST_F(AdaptivePolicy, AnUndecidedAnswerAcceptsNothing) {
+  const ErrorModel exact = ErrorModel::Exact({});
+  const auto dialogue = policy->Begin(s, {}, Interface::YesNo(exact), 1);
+  dialogue->Hear(AskObject(3), Said(true, exact));
+  dialogue->Hear(AskAction(a.FindAction("Squeeze")), Said(true, exact));
+  dialogue->Hear(*dialogue->Ask(), exact.Hear({0.5, 0.5}));
+  EXPECT_FALSE(dialogue->Accepted());
 }
 
 TEST_F(AdaptivePolicy, LearnsHowOftenAnswersAreWrong) {
@@ -114,7 +123,7 @@ TEST_F(AdaptivePolicy, LearnsHowOftenAnswersAreWrong) {
 TEST_F(AdaptivePolicy, CountsAnswersPerDevice) {
   UserHistory history;
   for (int i = 0; i < 4; ++i)
-    history.push_back({0, 0, 1, i % 2 == 0 ? "switch" : "speech", {1, 2, 3, 4}});
+    history.push_back({0, 0, 1, {{i % 2 == 0 ? "switch" : "speech", {1, 2, 3, 4}}}, 0, {}});
   EXPECT_NEAR(PastAnswers(history, "switch").meant_no_said_no, 4 + 4 * 0.98, 1e-12);
   EXPECT_EQ(PastAnswers(history, "bci").meant_yes_said_yes, 0);
 }

@@ -40,7 +40,7 @@ TEST_F(ConversationTest, LeadsToATaskThatWasRememberedFirst) {
   ASSERT_EQ(memory.sessions.size(), 1u);
   EXPECT_EQ(memory.sessions[0].questions, task.questions);
   EXPECT_EQ(memory.sessions[0].answers.size(), static_cast<size_t>(task.questions));
-  EXPECT_TRUE(memory.sessions[0].answers.back().meant_yes);
+  EXPECT_EQ(memory.sessions[0].answers.back().meant, 0);
 }
 
 TEST_F(ConversationTest, AsksOnceTheSecondTime) {

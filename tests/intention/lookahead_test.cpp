@@ -22,14 +22,14 @@ double BruteCost(const Situation& s, const std::vector<double>& p, const Questio
                  const ErrorRates& r, double accept) {
   std::vector<double> yes(p), no(p);
   for (int i = 0; i < s.pair_count(); ++i) {
-    yes[i] *= q.Holds(s.pairs[i]) ? 1 - r.false_no : r.false_yes;
-    no[i] *= q.Holds(s.pairs[i]) ? r.false_no : 1 - r.false_yes;
+    yes[i] *= q.Meant(s.pairs[i]) == 0 ? 1 - r.false_no : r.false_yes;
+    no[i] *= q.Meant(s.pairs[i]) == 0 ? r.false_no : 1 - r.false_yes;
   }
   const double p_yes = std::accumulate(yes.begin(), yes.end(), 0.0);
   const double p_no = std::accumulate(no.begin(), no.end(), 0.0);
   const double capacity = Capacity(r);
   double cost = 1;
-  const bool ends = q.kind == QuestionKind::kFull && yes[q.pair] >= accept * p_yes;
+  const bool ends = q.kind == QuestionKind::kFull && yes[q.Accepts(0)] >= accept * p_yes;
   if (!ends && p_yes > 0) cost += p_yes * RemainingQuestions(Entropy(yes), capacity);
   if (p_no > 0) cost += p_no * RemainingQuestions(Entropy(no), capacity);
   return cost;

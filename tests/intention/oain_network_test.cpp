@@ -79,7 +79,7 @@ TEST(OainNetwork, ClosedFormEqualsBruteForce) {
         known += past.category == category && past.action == pair.action;
       if (known == 0) {
         known = static_cast<int>(random() % 4);
-        for (int i = 0; i < known; ++i) history.push_back({category, pair.action, 1, "", {}});
+        for (int i = 0; i < known; ++i) history.push_back({category, pair.action, 1, {}, 0, {}});
       }
     }
     for (const Pair& pair : situation.pairs) {

@@ -93,8 +93,9 @@ TEST(OainPolicy, PrunesAsTheDissertationDoes) {
   const Situation s =
       MakeSituation(a, Things(a, {{"Mug", 0.5}, {"Mug", 0.6}, {"Tube", 0.7}, {"SprayCan", 0.8}}));
   const auto policy = MakePolicy("oain", a, QueryFamilies::kActionObjectFull);
-  const auto dialogue = (*policy)->Begin(s, {}, ErrorModel::Exact({}), 1);
-  const Evidence yes{1, 0, {}}, no{0, 1, {}};
+  const auto dialogue = (*policy)->Begin(s, {}, Interface::YesNo(), 1);
+  const Evidence yes = ErrorModel::Exact({}).Hear({1, 0});
+  const Evidence no = ErrorModel::Exact({}).Hear({0, 1});
   // Grasp is linked to all four objects and the likeliest.
   ASSERT_EQ(dialogue->Ask(), AskAction(a.FindAction("Grasp")));
   dialogue->Hear(*dialogue->Ask(), no);

@@ -14,7 +14,7 @@ class Prior : public testing::Test {
     return prior[s.Find(a.FindCategory(category), rank, a.FindAction(action))];
   }
   PastSession Past(const char* category, const char* action, int rank = 1) const {
-    return {a.FindCategory(category), a.FindAction(action), rank, "", {}};
+    return {a.FindCategory(category), a.FindAction(action), rank, {}, 0, {}};
   }
   const Affordances a = TestAffordances();
   const Situation s = MakeSituation(
@@ -27,8 +27,12 @@ TEST_F(Prior, SumsToOneWhateverThePast) {
   for (int i = 0; i < 300; ++i) {
     const int category = static_cast<int>(random() % a.categories().size());
     const auto& actions = a.categories()[category].actions;
-    history.push_back(
-        {category, actions[random() % actions.size()], 1 + static_cast<int>(random() % 9), "", {}});
+    history.push_back({category,
+                       actions[random() % actions.size()],
+                       1 + static_cast<int>(random() % 9),
+                       {},
+                       0,
+                       {}});
     const auto prior = PriorOver(s, history);
     EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
     for (const double p : prior) EXPECT_GT(p, 0);

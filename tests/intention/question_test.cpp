@@ -22,24 +22,32 @@ TEST(QuestionText, IsPlainEnglish) {
   EXPECT_EQ(Text(a, s, pair(0, "Open")), "Open the carton?");
   EXPECT_EQ(Text(a, s, pair(1, "Drink")), "Drink from the second mug?");
   EXPECT_EQ(Text(a, s, pair(3, "Grasp")), "Grasp the spray can?");
-  const Question mugs{QuestionKind::kCategory, kAny, 0b0110, -1};
+  const Question mugs = AskYesNo(QuestionKind::kCategory, {kAny, 0b0110, -1});
   EXPECT_EQ(Text(a, s, mugs), "Is it about one of the mugs?");
-  EXPECT_EQ(Text(a, s, {QuestionKind::kSet, kAny, 0b0101, -1}),
+  EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b0101, -1})),
             "Is it one of the 2 objects nearest to you?");
-  EXPECT_EQ(Text(a, s, {QuestionKind::kSet, kAny, 0b1100, -1}),
+  EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b1100, -1})),
             "Is it one of the 2 objects furthest to the left?");
-  EXPECT_EQ(Text(a, s, {QuestionKind::kSet, kAny, 0b1011, -1}),
+  EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b1011, -1})),
             "Is it one of these: the carton, the second mug or the spray can?");
   EXPECT_EQ(WithArticle(Noun("SprayCan")), "a spray can");
 }
 
-TEST(Question, HoldsForItsSets) {
-  const Question question{QuestionKind::kSet, 0b010, 0b101, -1};
-  EXPECT_TRUE(question.Holds({0, 1}));
-  EXPECT_TRUE(question.Holds({2, 1}));
-  EXPECT_FALSE(question.Holds({1, 1}));
-  EXPECT_FALSE(question.Holds({0, 0}));
-  EXPECT_TRUE(AskAction(3).Holds({63, 3}));
+TEST(Question, MeansTheFirstOptionThatHolds) {
+  const Question set = AskYesNo(QuestionKind::kSet, {0b010, 0b101, -1});
+  EXPECT_EQ(set.Meant({0, 1}), 0);
+  EXPECT_EQ(set.Meant({2, 1}), 0);
+  EXPECT_EQ(set.Meant({1, 1}), set.none());
+  EXPECT_EQ(set.Meant({0, 0}), set.none());
+  EXPECT_EQ(AskAction(3).Meant({63, 3}), 0);
+  const Question choice{QuestionKind::kChoice, {{0b001, 0b100, 7}, {kAny, 0b100, -1}, {}}};
+  EXPECT_EQ(choice.answers(), 4);
+  EXPECT_EQ(choice.Meant({2, 0}), 0);
+  EXPECT_EQ(choice.Meant({2, 1}), 1);
+  EXPECT_EQ(choice.Meant({0, 1}), 2);
+  EXPECT_EQ(choice.Accepts(0), 7);
+  EXPECT_LT(choice.Accepts(1), 0);
+  EXPECT_LT(choice.Accepts(choice.none()), 0);
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ SessionRecord Session(const std::string& id, const std::string& user = "ann", Ut
   session.action = "Open";
   session.questions = 2;
   session.posterior = 1;
-  session.answers = {{QuestionKind::kAction, 0, 1, false}, {QuestionKind::kFull, 1, 0, true}};
+  session.present = {{"Carton", 1}, {"Mug", 2}};
+  session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch"},
+                     {QuestionKind::kFull, {1, 0}, 0, "speech"}};
   return session;
 }
 
@@ -100,7 +102,10 @@ TEST_F(StoreTest, RemembersOverRestarts) {
   EXPECT_EQ(session.device, "switch");
   ASSERT_EQ(session.answers.size(), 2u);
   EXPECT_EQ(session.answers[1].kind, QuestionKind::kFull);
-  EXPECT_TRUE(session.answers[1].meant_yes);
+  EXPECT_EQ(session.answers[1].likelihoods, (std::vector<double>{1, 0}));
+  EXPECT_EQ(session.answers[1].meant, 0);
+  EXPECT_EQ(session.answers[1].device, "speech");
+  EXPECT_EQ(session.present.at("Mug"), 2);
   const auto labels = store->LabelsOf("camera");
   ASSERT_EQ(labels->size(), 1u);
   EXPECT_EQ(labels->front().category, "Tin");

@@ -17,16 +17,19 @@ constexpr double kNoneIsSure =
 class AdaptiveDialogue : public Dialogue {
  public:
   AdaptiveDialogue(const AdaptiveConfig& config, const Situation& situation,
-                   std::vector<double> prior, const ErrorModel& errors)
-      : config_(config), situation_(situation), errors_(errors), accepts_(prior.size(), 0) {
-    const bool noisy = errors.noisy();
+                   std::vector<double> prior, const Interface& interface)
+      : config_(config),
+        situation_(situation),
+        errors_(interface.errors),
+        accepts_(prior.size(), 0) {
+    const bool noisy = errors_.noisy();
     if (noisy) CapPrior(prior, config.noisy_prior_cap);
     const double none = noisy ? config.none_prior : 0;
     for (double& p : prior) p *= 1 - none;
     prior.push_back(none);
     for (const double p : prior) {
       auto& joint = joint_.emplace_back();
-      for (int level = 0; level < kLevels; ++level) joint[level] = p * errors.weights[level];
+      for (int level = 0; level < kLevels; ++level) joint[level] = p * errors_.weights[level];
     }
     Marginalise();
   }
@@ -43,12 +46,14 @@ class AdaptiveDialogue : public Dialogue {
 
   void Hear(const Question& question, const Evidence& evidence) override {
     for (size_t i = 0; i < joint_.size(); ++i) {
-      const bool meant_yes = i < situation_.pairs.size() && question.Holds(situation_.pairs[i]);
+      const int meant =
+          i < situation_.pairs.size() ? question.Meant(situation_.pairs[i]) : question.none();
       for (int level = 0; level < kLevels; ++level)
-        joint_[i][level] *= evidence.Likelihood(meant_yes, level);
+        joint_[i][level] *= evidence.likelihood[meant][level];
     }
-    if (question.kind == QuestionKind::kFull && question.pair >= 0) {
-      accepts_[question.pair] += evidence.said_yes() ? 1 : -1;
+    for (int answer = 0; answer < question.none(); ++answer) {
+      const int pair = question.Accepts(answer);
+      if (pair >= 0) accepts_[pair] += answer == evidence.said ? 1 : -1;
     }
     Marginalise();
   }
@@ -70,6 +75,8 @@ class AdaptiveDialogue : public Dialogue {
       }
     }
     belief.expected_questions = choice_ && !Accepted() ? choice_->expected_questions : 0;
+    belief.expected_seconds = belief.expected_questions;
+    belief.posterior = posterior_;
     return belief;
   }
 
@@ -121,9 +128,9 @@ class AdaptivePolicy : public Policy {
   explicit AdaptivePolicy(const AdaptiveConfig& config) : config_(config) {}
 
   std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory& history,
-                                  const ErrorModel& errors, uint64_t) const override {
+                                  const Interface& interface, uint64_t) const override {
     return std::make_unique<AdaptiveDialogue>(config_, situation, PriorOver(situation, history),
-                                              errors);
+                                              interface);
   }
 
  private:

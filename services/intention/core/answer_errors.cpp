@@ -10,10 +10,14 @@ constexpr size_t kOldest = 400;
 
 }  // namespace
 
-void Count(AnswerCounts& counts, bool meant_yes, bool said_yes) {
-  (meant_yes  ? said_yes ? counts.meant_yes_said_yes : counts.meant_yes_said_no
-   : said_yes ? counts.meant_no_said_yes
-              : counts.meant_no_said_no) += 1;
+void Count(AnswerCounts& counts, int answers, int meant, int said) {
+  if (answers > 2) {
+    (meant == said ? counts.chose_right : counts.chose_wrong) += 1;
+    return;
+  }
+  (meant == 0  ? said == 0 ? counts.meant_yes_said_yes : counts.meant_yes_said_no
+   : said == 0 ? counts.meant_no_said_yes
+               : counts.meant_no_said_no) += 1;
 }
 
 AnswerCounts PastAnswers(const UserHistory& history, const std::string& device) {
@@ -21,12 +25,15 @@ AnswerCounts PastAnswers(const UserHistory& history, const std::string& device) 
   double weight = 1;
   const size_t oldest = history.size() - std::min(history.size(), kOldest);
   for (size_t i = history.size(); i-- > oldest;) {
-    if (history[i].device != device) continue;
-    const AnswerCounts& counts = history[i].answers;
+    const auto found = history[i].answers.find(device);
+    if (found == history[i].answers.end()) continue;
+    const AnswerCounts& counts = found->second;
     sum.meant_yes_said_yes += weight * counts.meant_yes_said_yes;
     sum.meant_yes_said_no += weight * counts.meant_yes_said_no;
     sum.meant_no_said_yes += weight * counts.meant_no_said_yes;
     sum.meant_no_said_no += weight * counts.meant_no_said_no;
+    sum.chose_right += weight * counts.chose_right;
+    sum.chose_wrong += weight * counts.chose_wrong;
     weight *= kForgetting;
   }
   return sum;

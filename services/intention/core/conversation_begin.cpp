@@ -194,7 +194,10 @@ Actions Conversation::OnInterface(const msg::Interface& announced, Utime) {
   }
   DeviceModel& model = devices_[announced.device];
   model.announced = true;
+  model.kind = static_cast<InterfaceKind>(static_cast<int>(announced.kind) - 1);
   model.max_options = announced.max_options;
+  model.seconds_per_question = announced.seconds_per_question;
+  model.seconds_per_option = announced.seconds_per_option;
   model.rates = {announced.false_yes, announced.false_no};
   model.confusion = announced.confusion;
   if (model.confusion.size() == 2) {  // rows: meant yes, meant no

@@ -63,6 +63,7 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   record.instance = accepted.instance;
   record.questions = talk.interview->questions();
   record.posterior = accepted.posterior;
+  record.present = talk.interview->Present();
   record.answers = talk.interview->Answers();
   const msg::Task task = MakeTask(talk, accepted, now);
   const auto committed = memory_.Commit(record, LabelsOf(talk, now), task);

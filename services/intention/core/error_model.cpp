@@ -44,6 +44,38 @@ ErrorModel ErrorModel::Announced(ErrorRates rates) {
   return model;
 }
 
+double ErrorModel::Probability(int level, int answers, int meant, int said) const {
+  const ErrorRates& r = rates[level];
+  if (answers == 2) {
+    const double error = meant == 0 ? r.false_no : r.false_yes;
+    return meant == said ? 1 - error : error;
+  }
+  const double error = (r.false_yes + r.false_no) / 2;
+  return meant == said ? 1 - error : error / (answers - 1);
+}
+
+int SaidAnswer(const std::vector<double>& likelihoods) {
+  const auto most = std::max_element(likelihoods.begin(), likelihoods.end());
+  const bool tied = std::count(likelihoods.begin(), likelihoods.end(), *most) > 1;
+  return static_cast<int>((tied ? likelihoods.end() - 1 : most) - likelihoods.begin());
+}
+
+Evidence ErrorModel::Hear(const std::vector<double>& likelihoods) const {
+  const int answers = static_cast<int>(likelihoods.size());
+  Evidence evidence;
+  evidence.said = SaidAnswer(likelihoods);
+  evidence.likelihood.resize(likelihoods.size());
+  for (int meant = 0; meant < answers; ++meant) {
+    for (int level = 0; level < kLevels; ++level) {
+      double sum = 0;
+      for (int said = 0; said < answers; ++said)
+        sum += likelihoods[said] * Probability(level, answers, meant, said);
+      evidence.likelihood[meant][level] = sum;
+    }
+  }
+  return evidence;
+}
+
 bool ErrorModel::noisy() const {
   return std::any_of(rates.begin(), rates.end(),
                      [](const ErrorRates& r) { return r.false_yes > 0 || r.false_no > 0; });
@@ -57,7 +89,9 @@ ErrorModel ErrorModel::Learnt(const AnswerCounts& counts) const {
                      Term(counts.meant_yes_said_yes, 1 - rates[i].false_no) +
                      Term(counts.meant_yes_said_no, rates[i].false_no) +
                      Term(counts.meant_no_said_yes, rates[i].false_yes) +
-                     Term(counts.meant_no_said_no, 1 - rates[i].false_yes);
+                     Term(counts.meant_no_said_no, 1 - rates[i].false_yes) +
+                     Term(counts.chose_right, 1 - (rates[i].false_yes + rates[i].false_no) / 2) +
+                     Term(counts.chose_wrong, (rates[i].false_yes + rates[i].false_no) / 2);
   }
   const double most = *std::max_element(log_weights.begin(), log_weights.end());
   ErrorModel learnt = *this;

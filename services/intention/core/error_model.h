@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 namespace beckon::intention {
 
@@ -17,7 +18,11 @@ struct AnswerCounts {
   double meant_yes_said_no = 0;
   double meant_no_said_yes = 0;
   double meant_no_said_no = 0;
+  double chose_right = 0;  // of choices with more than two answers
+  double chose_wrong = 0;
 };
+
+struct Evidence;
 
 /// A distribution over a few levels of noise. Within a session the level is inferred together with
 /// what the user wants: answers that contradict each other speak for a noisy level.
@@ -34,26 +39,24 @@ struct ErrorModel {
   /// What an interface claims: up to eight times better and four times worse is considered.
   static ErrorModel Announced(ErrorRates rates);
 
+  /// P(answer `said` received | answer `meant`) of a question with `answers` answers at a level.
+  /// Two answers are yes (0) and no (1); among more a wrong one is any of the others.
+  double Probability(int level, int answers, int meant, int said) const;
+  /// What was received, as evidence. `likelihoods`: one an answer of the question, >= 0, finite.
+  Evidence Hear(const std::vector<double>& likelihoods) const;
   /// Whether any level can be wrong.
   bool noisy() const;
   /// The model after seeing `counts`.
   ErrorModel Learnt(const AnswerCounts& counts) const;
 };
 
-/// An answer to a yes/no question: how likely what was received is under each option. A press is
-/// one-hot.
-struct Evidence {
-  double yes = 0;
-  double no = 0;
-  std::array<ErrorRates, ErrorModel::kLevels> rates{};  // of the device that heard it
+/// Index of the likeliest answer; the last one, "none", where it is not a single one.
+int SaidAnswer(const std::vector<double>& likelihoods);
 
-  bool said_yes() const { return yes > no; }
-  /// P(received | yes or no meant) at a level of noise, up to scale.
-  double Likelihood(bool meant_yes, int level) const {
-    const ErrorRates& r = rates[level];
-    return meant_yes ? yes * (1 - r.false_no) + no * r.false_no
-                     : yes * r.false_yes + no * (1 - r.false_yes);
-  }
+/// An answer: how likely what was received is, by what was meant and by level of noise.
+struct Evidence {
+  int said = 0;  // SaidAnswer of what was received
+  std::vector<std::array<double, ErrorModel::kLevels>> likelihood;  // by answer meant, up to scale
 };
 
 }  // namespace beckon::intention

@@ -11,6 +11,15 @@ namespace {
 /// Uniform in [0, 1), the same on every platform.
 double Uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
+/// What a user who wants `wanted` answers, slips included.
+int Answer(const Question& question, const Pair& wanted, double flip, std::mt19937_64& random) {
+  const int meant = question.Meant(wanted);
+  if (Uniform(random) >= flip) return meant;
+  const int others = question.answers() - 1;
+  const int slip = others == 1 ? 0 : static_cast<int>(random() % static_cast<uint64_t>(others));
+  return slip < meant ? slip : slip + 1;
+}
+
 }  // namespace
 
 Evaluation::Evaluation(const Affordances& affordances, const Policy& policy,
@@ -25,10 +34,16 @@ Evaluation::User& Evaluation::Find(const std::string& name) {
   return users_.back();
 }
 
-ErrorModel Evaluation::Errors(const User& user) const {
-  if (config_.assume_flip) return ErrorModel::Exact({*config_.assume_flip, *config_.assume_flip});
-  if (config_.flip <= 0) return ErrorModel::Exact({});
-  return ErrorModel::Unknown().Learnt(PastAnswers(user.history, ""));
+Interface Evaluation::InterfaceOf(const User& user) const {
+  Interface interface = config_.interface;
+  if (config_.assume_flip) {
+    interface.errors = ErrorModel::Exact({*config_.assume_flip, *config_.assume_flip});
+  } else if (config_.flip > 0) {
+    interface.errors = ErrorModel::Unknown().Learnt(PastAnswers(user.history, ""));
+  } else {
+    interface.errors = ErrorModel::Exact({});
+  }
+  return interface;
 }
 
 SessionOutcome Evaluation::Live(const ScenarioSession& session) {
@@ -41,23 +56,25 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
   SessionOutcome outcome;
   struct Said {
     Question question;
-    bool yes;
+    int answer;
   };
   std::vector<Said> said;
   double started = now_us_();
-  const ErrorModel errors = Errors(user);
-  const auto dialogue = policy_.Begin(situation, user.history, errors, seed);
+  const Interface interface = InterfaceOf(user);
+  const auto dialogue = policy_.Begin(situation, user.history, interface, seed);
   while (outcome.questions < config_.most_questions) {
     const auto question = dialogue->Ask();
     outcome.compute_us += now_us_() - started;
     started = now_us_();
     if (!question) break;
-    const bool slip = Uniform(random) < config_.flip;
-    const bool yes = question->Holds(situation.pairs[want]) != slip;
-    said.push_back({*question, yes});
+    const int answer = Answer(*question, situation.pairs[want], config_.flip, random);
+    said.push_back({*question, answer});
     ++outcome.questions;
+    outcome.seconds += interface.Seconds(question->answers(), answer);
+    std::vector<double> heard(static_cast<size_t>(question->answers()), 0.0);
+    heard[static_cast<size_t>(answer)] = 1;
     started = now_us_();
-    dialogue->Hear(*question, {yes ? 1.0 : 0.0, yes ? 0.0 : 1.0, errors.rates});
+    dialogue->Hear(*question, interface.errors.Hear(heard));
     if (dialogue->Accepted()) break;
   }
   outcome.compute_us += now_us_() - started;
@@ -65,8 +82,14 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
   if (const auto accepted = dialogue->Accepted()) {
     const Pair& pair = situation.pairs[*accepted];
     const Instance& object = situation.objects[pair.object];
-    PastSession learnt{object.category, pair.action, object.rank, "", {}};
-    for (const Said& s : said) Count(learnt.answers, s.question.Holds(pair), s.yes);
+    PastSession learnt;
+    learnt.category = object.category;
+    learnt.action = pair.action;
+    learnt.rank = object.rank;
+    learnt.utime = session.utime;
+    learnt.present = situation.Present(affordances_);
+    for (const Said& s : said)
+      Count(learnt.answers[""], s.question.answers(), s.question.Meant(pair), s.answer);
     outcome.answered = learnt;
     outcome.correct = *accepted == want;
     user.history.push_back(learnt);

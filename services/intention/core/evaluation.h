@@ -17,20 +17,23 @@ struct ScenarioSession {
   int want_category = 0;
   int want_rank = 1;
   int want_action = 0;
+  Utime utime = 0;  // 0: not known
 };
 
 struct EvaluationConfig {
-  double flip = 0;  // P(an answer is the opposite of what was meant), 0..0.5
+  double flip = 0;  // P(an answer is not what was meant: the opposite, or any other), 0..0.5
   // What the policy is told of it. Without: with flip 0 that answers are never wrong (as an
   // interface does that announces no errors), else only that they may be wrong, and it learns how
   // often.
   std::optional<double> assume_flip;
+  Interface interface;  // but for its errors, which `flip` and `assume_flip` give
   uint64_t seed = 1;
   int most_questions = 500;  // a session that takes more is given up
 };
 
 struct SessionOutcome {
   int questions = 0;
+  double seconds = 0;                   // that the questions took at the interface
   std::optional<PastSession> answered;  // category, action and rank that were accepted
   bool correct = false;
   double posterior = 0;
@@ -53,7 +56,7 @@ class Evaluation {
     UserHistory history;
   };
   User& Find(const std::string& name);
-  ErrorModel Errors(const User& user) const;
+  Interface InterfaceOf(const User& user) const;
 
   const Affordances& affordances_;
   const Policy& policy_;

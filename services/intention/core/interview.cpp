@@ -24,11 +24,12 @@ const DeviceModel& Interview::Device(const std::string& device) const {
   return found == input_.devices.end() ? kUnannounced : found->second;
 }
 
-ErrorModel Interview::Errors(const std::string& device) const {
+Interface Interview::InterfaceOf(const std::string& device) const {
   const DeviceModel& model = Device(device);
   const ErrorModel start =
       model.announced ? ErrorModel::Announced(model.rates) : ErrorModel::Unknown();
-  return start.Learnt(PastAnswers(input_.history, device));
+  return {model.kind, model.max_options, model.seconds_per_question, model.seconds_per_option,
+          start.Learnt(PastAnswers(input_.history, device))};
 }
 
 std::vector<double> Interview::ThroughErrors(const std::vector<double>& likelihoods,
@@ -51,7 +52,8 @@ void Interview::Answer(const std::vector<double>& likelihoods, const std::string
   if (asked_object_ >= 0) {
     steps_.emplace_back(WhatIsIt{asked_object_, offer_, ThroughErrors(likelihoods, device)});
   } else {
-    steps_.push_back(YesNo{question_, {likelihoods[0], likelihoods[1], Errors(device).rates}});
+    const Evidence evidence = InterfaceOf(device).errors.Hear(likelihoods);
+    steps_.emplace_back(Heard{question_, evidence, likelihoods, device});
   }
   Recompute();
 }
@@ -81,7 +83,7 @@ void Interview::Recompute() {
   refused_all_ = false;
   asked_object_ = -1;
   for (const Step& step : steps_) {
-    if (const auto* yes_no = std::get_if<YesNo>(&step)) evidence_.push_back(*yes_no);
+    if (const auto* heard = std::get_if<Heard>(&step)) evidence_.push_back(*heard);
     if (const auto* what = std::get_if<WhatIsIt>(&step)) Apply(*what);
     if (std::holds_alternative<RefusedAll>(step)) refused_all_ = true;
   }
@@ -96,15 +98,17 @@ void Interview::Recompute() {
 }
 
 Question Interview::Resolved(Question question) const {
-  if (question.kind == QuestionKind::kFull) {
-    question.pair =
-        situation_.Find(std::countr_zero(question.objects), std::countr_zero(question.actions));
+  for (Proposition& option : question.options) {
+    if (!std::has_single_bit(option.actions) || !std::has_single_bit(option.objects)) continue;
+    option.pair =
+        situation_.Find(std::countr_zero(option.objects), std::countr_zero(option.actions));
   }
   return question;
 }
 
 std::unique_ptr<Dialogue> Interview::Replayed(size_t from) const {
-  auto dialogue = policy_.Begin(situation_, input_.history, Errors(input_.device), input_.seed);
+  auto dialogue =
+      policy_.Begin(situation_, input_.history, InterfaceOf(input_.device), input_.seed);
   for (size_t i = from; i < evidence_.size(); ++i) {
     dialogue->Hear(Resolved(evidence_[i].question), evidence_[i].evidence);
   }
@@ -124,7 +128,7 @@ void Interview::AskTask() {
     return Accept(*accepted, dialogue->CurrentBelief());
   if (next && !refused_all_) {
     question_ = *next;
-    outcome_ = YesNoQuery(*next, dialogue->CurrentBelief());
+    outcome_ = TaskQuery(*next, dialogue->CurrentBelief());
     return;
   }
   if (const int object = NextToRecheck(); object >= 0) return AskObject(object);
@@ -153,7 +157,20 @@ msg::ObjectRef Interview::Ref(int object) const {
       std::max(1, situation_.objects[object].rank)};
 }
 
-msg::Query Interview::YesNoQuery(const Question& question, const Belief& belief) const {
+msg::Option Interview::OptionOf(const Proposition& option) const {
+  msg::Option shown;
+  shown.text = OptionText(affordances_, situation_, option);
+  if (std::has_single_bit(option.actions))
+    shown.action = affordances_.actions()[std::countr_zero(option.actions)].name;
+  for (size_t i = 0; option.objects != kAny && i < situation_.objects.size(); ++i) {
+    if ((option.objects >> i & 1) == 0) continue;
+    shown.category = Ref(static_cast<int>(i)).category;
+    shown.objects.push_back(input_.scene.objects[i].id);
+  }
+  return shown;
+}
+
+msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) const {
   msg::Query query;
   switch (question.kind) {
     case QuestionKind::kAction:
@@ -171,17 +188,26 @@ msg::Query Interview::YesNoQuery(const Question& question, const Belief& belief)
     case QuestionKind::kSet:
       query.kind = msg::QueryKind::kSet;
       break;
+    case QuestionKind::kChoice:
+      query.kind = msg::QueryKind::kChoice;
+      break;
   }
   query.text = Text(affordances_, situation_, question);
-  query.any_action = question.actions == kAny;
-  for (size_t i = 0; !query.any_action && i < affordances_.actions().size(); ++i) {
-    if (question.actions >> i & 1) query.actions.push_back(affordances_.actions()[i].name);
+  if (question.kind == QuestionKind::kChoice) {
+    for (const Proposition& option : question.options) query.options.push_back(OptionOf(option));
+    query.options.push_back({kNoneOfThese, "", "", {}});
+  } else {
+    const Proposition& asked = question.options.front();
+    query.any_action = asked.actions == kAny;
+    for (size_t i = 0; !query.any_action && i < affordances_.actions().size(); ++i) {
+      if (asked.actions >> i & 1) query.actions.push_back(affordances_.actions()[i].name);
+    }
+    query.any_object = asked.objects == kAny;
+    for (size_t i = 0; !query.any_object && i < situation_.objects.size(); ++i) {
+      if (asked.objects >> i & 1) query.objects.push_back(Ref(static_cast<int>(i)));
+    }
+    query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
   }
-  query.any_object = question.objects == kAny;
-  for (size_t i = 0; !query.any_object && i < situation_.objects.size(); ++i) {
-    if (question.objects >> i & 1) query.objects.push_back(Ref(static_cast<int>(i)));
-  }
-  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
   query.n_candidates = belief.possible_pairs;
   query.expected_questions = belief.expected_questions;
   query.best_posterior = belief.best_posterior;
@@ -212,11 +238,19 @@ std::vector<AnswerRecord> Interview::Answers() const {
   const auto* task = std::get_if<AcceptedTask>(&outcome_);
   if (task == nullptr) return answers;
   const Pair wanted{task->object, affordances_.FindAction(task->action)};
-  for (const YesNo& step : evidence_) {
+  for (const Heard& step : evidence_) {
     answers.push_back(
-        {step.question.kind, step.evidence.yes, step.evidence.no, step.question.Holds(wanted)});
+        {step.question.kind, step.likelihoods, step.question.Meant(wanted), step.device});
   }
   return answers;
+}
+
+std::map<std::string, int> Interview::Present() const {
+  std::map<std::string, int> present;
+  for (const Opinion& opinion : opinions_) {
+    if (opinion.category >= 0) ++present[affordances_.categories()[opinion.category].name];
+  }
+  return present;
 }
 
 std::vector<GivenLabel> Interview::Labels() const {

@@ -16,7 +16,10 @@ namespace beckon::intention {
 
 /// What the interview knows of a device.
 struct DeviceModel {
+  InterfaceKind kind = InterfaceKind::kYesNo;
   int max_options = 5;
+  double seconds_per_question = 8;
+  double seconds_per_option = 0;
   bool announced = false;  // false: its errors are unknown
   ErrorRates rates;
   std::vector<std::vector<float>> confusion;  // k x k for choices of k options; may be empty
@@ -78,11 +81,15 @@ class Interview {
   /// Once a task was accepted: the answers as evidence about errors.
   std::vector<AnswerRecord> Answers() const;
   std::vector<GivenLabel> Labels() const;
+  /// Instances on the table, by category.
+  std::map<std::string, int> Present() const;
 
  private:
-  struct YesNo {
+  struct Heard {
     Question question;
     Evidence evidence;
+    std::vector<double> likelihoods;  // as received
+    std::string device;
   };
   struct WhatIsIt {
     int object;
@@ -90,7 +97,7 @@ class Interview {
     std::vector<double> likelihoods;  // by option, errors of the device considered
   };
   struct RefusedAll {};
-  using Step = std::variant<YesNo, WhatIsIt, RefusedAll>;
+  using Step = std::variant<Heard, WhatIsIt, RefusedAll>;
 
   /// What is known of an object after the steps.
   struct Opinion {
@@ -125,10 +132,11 @@ class Interview {
   std::vector<int> Offer(int object) const;
   std::vector<double> ThroughErrors(const std::vector<double>& likelihoods,
                                     const std::string& device) const;
-  ErrorModel Errors(const std::string& device) const;
+  Interface InterfaceOf(const std::string& device) const;
   const DeviceModel& Device(const std::string& device) const;
   msg::ObjectRef Ref(int object) const;
-  msg::Query YesNoQuery(const Question& question, const Belief& belief) const;
+  msg::Option OptionOf(const Proposition& option) const;
+  msg::Query TaskQuery(const Question& question, const Belief& belief) const;
   void Accept(int pair, const Belief& belief);
 
   const Affordances& affordances_;
@@ -138,11 +146,11 @@ class Interview {
 
   // Recomputed from the steps.
   std::vector<Opinion> opinions_;  // by scene object
-  std::vector<YesNo> evidence_;    // that still holds
+  std::vector<Heard> evidence_;    // that still holds
   size_t relabelled_at_ = 0;       // evidence_.size() when a label last changed
   bool refused_all_ = false;
   Situation situation_;
-  Question question_;       // behind outcome_, where it is a yes/no query
+  Question question_;       // behind outcome_, where it is about tasks
   int asked_object_ = -1;   // behind outcome_, where it is a what-is-it query
   std::vector<int> offer_;  // its options but the last
   Outcome outcome_;

@@ -63,12 +63,17 @@ void Interview::Relabel(int object, int category) {
   // Answers about what the object was taken for say nothing of it any more. A no still speaks of
   // the other objects in question.
   const uint64_t others = ~(uint64_t{1} << object);
-  std::vector<YesNo> kept;
-  for (YesNo step : evidence_) {
-    const bool mentions = step.question.objects != kAny && (step.question.objects & ~others) != 0;
-    if (mentions) step.question.objects &= others;
-    const bool says_no = step.evidence.no > step.evidence.yes;
-    if (!mentions || (says_no && step.question.objects != 0)) kept.push_back(step);
+  std::vector<Heard> kept;
+  for (Heard step : evidence_) {
+    bool mentions = false, others_left = false;
+    for (Proposition& option : step.question.options) {
+      const bool named = option.objects != kAny && (option.objects & ~others) != 0;
+      if (named) option.objects &= others;
+      mentions |= named;
+      others_left |= option.objects != 0;
+    }
+    const bool says_none = step.evidence.said == step.question.none();
+    if (!mentions || (says_none && others_left)) kept.push_back(std::move(step));
   }
   evidence_ = std::move(kept);
   relabelled_at_ = evidence_.size();

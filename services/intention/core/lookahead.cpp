@@ -111,7 +111,7 @@ class Lookahead {
       const uint64_t mask = situation_.MaskOf(category);
       done |= mask;
       if (std::popcount(mask) > 1)
-        Consider({QuestionKind::kCategory, kAny, mask, -1}, MassOfObjects(mask));
+        Consider(AskYesNo(QuestionKind::kCategory, {kAny, mask, -1}), MassOfObjects(mask));
     }
   }
 
@@ -122,7 +122,7 @@ class Lookahead {
       for (int b = a + 1; b < kMaxActions; ++b) {
         if (by_action_[b].p <= 0) continue;
         const uint64_t both = uint64_t{1} << a | uint64_t{1} << b;
-        Consider({QuestionKind::kAction, both, kAny, -1}, by_action_[a] + by_action_[b]);
+        Consider(AskYesNo(QuestionKind::kAction, {both, kAny, -1}), by_action_[a] + by_action_[b]);
       }
     }
   }
@@ -142,7 +142,7 @@ class Lookahead {
       mask |= uint64_t{1} << order[k];
       in += by_object_[order[k]];
       const bool tied = key(situation_.objects[order[k]]) == key(situation_.objects[order[k + 1]]);
-      if (k > 0 && !tied) Consider({QuestionKind::kSet, kAny, mask, -1}, in);
+      if (k > 0 && !tied) Consider(AskYesNo(QuestionKind::kSet, {kAny, mask, -1}), in);
     }
   }
 

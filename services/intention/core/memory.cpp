@@ -12,9 +12,15 @@ UserHistory ToHistory(const std::vector<SessionRecord>& sessions, const Affordan
     past.action = affordances.FindAction(session.action);
     if (past.category < 0 || past.action < 0) continue;
     past.rank = session.instance;
-    past.device = session.device;
+    past.utime = session.utime;
+    if (!session.present.empty()) past.present.assign(affordances.categories().size(), 0);
+    for (const auto& [name, count] : session.present) {
+      if (const int category = affordances.FindCategory(name); category >= 0)
+        past.present[static_cast<size_t>(category)] = count;
+    }
     for (const AnswerRecord& answer : session.answers) {
-      Count(past.answers, answer.meant_yes, answer.yes > answer.no);
+      Count(past.answers[answer.device], static_cast<int>(answer.likelihoods.size()), answer.meant,
+            SaidAnswer(answer.likelihoods));
     }
     history.push_back(std::move(past));
   }

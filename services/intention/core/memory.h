@@ -2,6 +2,7 @@
 // is behind it in the service, a plain list in tests.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,9 @@ namespace beckon::intention {
 /// An answer of a confirmed session, as evidence about the device's errors.
 struct AnswerRecord {
   QuestionKind kind = QuestionKind::kFull;
-  double yes = 0;  // likelihoods as received
-  double no = 0;
-  bool meant_yes = false;  // for the task that was confirmed
+  std::vector<double> likelihoods;  // as received, by answer; yes and no where there are two
+  int meant = 0;                    // index of the answer that the confirmed task makes right
+  std::string device;               // that it came from
 };
 
 /// A confirmed session.
@@ -31,6 +32,7 @@ struct SessionRecord {
   int instance = 1;
   int questions = 0;
   double posterior = 0;
+  std::map<std::string, int> present;  // instances on the table, by category; empty: not recorded
   std::vector<AnswerRecord> answers;
 };
 

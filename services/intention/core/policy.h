@@ -3,13 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "services/base/utime.h"
 #include "services/intention/core/affordances.h"
-#include "services/intention/core/error_model.h"
+#include "services/intention/core/interface.h"
 #include "services/intention/core/question.h"
 #include "services/intention/core/situation.h"
 
@@ -20,8 +22,9 @@ struct PastSession {
   int category = 0;
   int action = 0;
   int rank = 1;
-  std::string device;
-  AnswerCounts answers;
+  std::map<std::string, AnswerCounts> answers;  // by device
+  Utime utime = 0;                              // when it was confirmed; 0: not known
+  std::vector<int> present;  // instances on the table, by category; empty: not known
 };
 
 /// Of one user, oldest first.
@@ -32,6 +35,8 @@ struct Belief {
   double best_posterior = 0;      // 0..1
   int possible_pairs = 0;         // with a posterior above 1e-9
   double expected_questions = 0;  // still to be answered
+  double expected_seconds = 0;    // that they take at this interface
+  std::vector<double> posterior;  // by pair; empty where the policy has none
 };
 
 /// One session. Deterministic: the same situation, history, seed and answers give the same
@@ -54,7 +59,7 @@ class Policy {
   virtual ~Policy() = default;
   /// `situation` must outlive the dialogue. `seed` decides ties.
   virtual std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory& history,
-                                          const ErrorModel& errors, uint64_t seed) const = 0;
+                                          const Interface& interface, uint64_t seed) const = 0;
 };
 
 /// Which questions may be asked.

@@ -14,10 +14,10 @@ void PruningDialogue::Hear(const Question& question, const Evidence& evidence) {
                                   [&](const Query& query) { return query.question == question; });
   if (found == left_.end()) return;
   const Query heard = *found;
-  const bool yes = evidence.said_yes();
+  const bool yes = evidence.said != question.none();
   const bool full = question.kind == QuestionKind::kFull;
   if (full && yes) {
-    if (question.pair >= 0) accepted_ = question.pair;
+    if (question.Accepts(0) >= 0) accepted_ = question.Accepts(0);
     return;
   }
   std::erase_if(left_, [&](const Query& query) {
@@ -34,15 +34,17 @@ void PruningDialogue::Hear(const Question& question, const Evidence& evidence) {
 Belief PruningDialogue::CurrentBelief() const {
   Belief belief;
   for (const Query& query : left_) {
-    if (query.question.pair < 0) continue;
+    const int pair = query.question.Accepts(0);
+    if (pair < 0) continue;
     ++belief.possible_pairs;
     if (query.probability > belief.best_posterior) {
       belief.best_posterior = query.probability;
-      belief.best_pair = query.question.pair;
+      belief.best_pair = pair;
     }
   }
-  if (accepted_) belief = {*accepted_, 1, 1, 0};
+  if (accepted_) belief = {*accepted_, 1, 1, 0, 0, {}};
   belief.expected_questions = accepted_ ? 0 : static_cast<double>(left_.size()) / 2;
+  belief.expected_seconds = belief.expected_questions;
   return belief;
 }
 

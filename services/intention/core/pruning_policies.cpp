@@ -47,12 +47,12 @@ class OainPolicy : public Policy {
   explicit OainPolicy(const Affordances& affordances) : affordances_(affordances) {}
 
   std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory& history,
-                                  const ErrorModel&, uint64_t seed) const override {
+                                  const Interface&, uint64_t seed) const override {
     const OainNetwork network(affordances_, situation, history);
     auto queries = SceneQueries(situation);
     Shuffle(queries, seed);
     for (Query& query : queries) {
-      query.probability = IsFull(query)       ? network.Full(query.question.pair)
+      query.probability = IsFull(query)       ? network.Full(query.question.Accepts(0))
                           : query.action >= 0 ? network.Action(query.action)
                                               : network.Object(query.object);
     }
@@ -79,7 +79,7 @@ class OainPolicy : public Policy {
 class CountPolicy : public Policy {
  public:
   std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory& history,
-                                  const ErrorModel&, uint64_t seed) const override {
+                                  const Interface&, uint64_t seed) const override {
     auto queries = SceneQueries(situation);
     Shuffle(queries, seed);
     for (Query& query : queries) {
@@ -102,7 +102,7 @@ class CountPolicy : public Policy {
 
 class RandomScenePolicy : public Policy {
  public:
-  std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory&, const ErrorModel&,
+  std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory&, const Interface&,
                                   uint64_t seed) const override {
     auto queries = SceneQueries(situation);
     Shuffle(queries, seed);
@@ -116,7 +116,7 @@ class RandomPolicy : public Policy {
  public:
   explicit RandomPolicy(const Affordances& affordances) : affordances_(affordances) {}
 
-  std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory&, const ErrorModel&,
+  std::unique_ptr<Dialogue> Begin(const Situation& situation, const UserHistory&, const Interface&,
                                   uint64_t seed) const override {
     std::vector<Query> queries;
     for (int action = 0; action < static_cast<int>(affordances_.actions().size()); ++action) {
@@ -125,12 +125,13 @@ class RandomPolicy : public Policy {
     for (int category = 0; category < static_cast<int>(affordances_.categories().size());
          ++category) {
       const uint64_t objects = situation.MaskOf(category);
-      queries.push_back({{QuestionKind::kObject, kAny, objects, -1 - category}, -1, category, 0});
+      queries.push_back(
+          {AskYesNo(QuestionKind::kObject, {kAny, objects, -1 - category}), -1, category, 0});
       for (const int action : affordances_.categories()[category].actions) {
         const int nearest = situation.Find(category, 1, action);
         const int pair = nearest >= 0 ? nearest : -1 - category;  // absent ones differ
-        queries.push_back(
-            {{QuestionKind::kFull, uint64_t{1} << action, objects, pair}, action, category, 0});
+        queries.push_back({AskYesNo(QuestionKind::kFull, {uint64_t{1} << action, objects, pair}),
+                           action, category, 0});
       }
     }
     Shuffle(queries, seed);

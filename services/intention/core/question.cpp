@@ -104,6 +104,8 @@ const char* Name(QuestionKind kind) {
       return "category";
     case QuestionKind::kSet:
       return "set";
+    case QuestionKind::kChoice:
+      return "choice";
   }
   return "full";
 }
@@ -136,19 +138,34 @@ std::string TaskText(const Affordances& affordances, const Situation& situation,
          TheObject(affordances, situation, pair.object);
 }
 
+std::string OptionText(const Affordances& affordances, const Situation& situation,
+                       const Proposition& option) {
+  if (option.pair >= 0) return TaskText(affordances, situation, situation.pairs[option.pair]);
+  if (option.objects == kAny) {
+    return Capitalised(ActionWords(affordances, option.actions)) + " something";
+  }
+  std::vector<std::string> names;
+  for (const int object : Members(option.objects, static_cast<int>(situation.objects.size()))) {
+    names.push_back(TheObject(affordances, situation, object));
+  }
+  return Capitalised(Listed(names));
+}
+
 std::string Text(const Affordances& affordances, const Situation& situation,
                  const Question& question) {
-  const auto objects = Members(question.objects, static_cast<int>(situation.objects.size()));
+  if (question.kind == QuestionKind::kChoice || question.options.empty()) return "Which is it?";
+  const Proposition& asked = question.options.front();
+  const auto objects = Members(asked.objects, static_cast<int>(situation.objects.size()));
   switch (question.kind) {
     case QuestionKind::kAction:
-      return "Do you want to " + ActionWords(affordances, question.actions) + " something?";
+      return "Do you want to " + ActionWords(affordances, asked.actions) + " something?";
     case QuestionKind::kObject:
       if (!objects.empty())
         return "Is it about " + TheObject(affordances, situation, objects[0]) + "?";
       break;
     case QuestionKind::kFull:
-      if (question.pair >= 0)
-        return TaskText(affordances, situation, situation.pairs[question.pair]) + "?";
+      if (asked.pair >= 0)
+        return TaskText(affordances, situation, situation.pairs[asked.pair]) + "?";
       break;
     case QuestionKind::kCategory:
       if (!objects.empty()) {
@@ -158,7 +175,9 @@ std::string Text(const Affordances& affordances, const Situation& situation,
       }
       break;
     case QuestionKind::kSet:
-      return SetText(affordances, situation, question.objects);
+      return SetText(affordances, situation, asked.objects);
+    case QuestionKind::kChoice:
+      break;
   }
   return "Is it something else?";
 }

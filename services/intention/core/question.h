@@ -1,9 +1,10 @@
-// A yes/no question as a proposition: the wanted action is one of a set and the wanted object one
-// of a set.
+// Questions as propositions about what is wanted: "the action is one of a set and the object one of
+// a set". A yes/no question puts one of them to the user, a choice several.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "services/intention/core/situation.h"
 
@@ -12,38 +13,69 @@ namespace beckon::intention {
 /// The set of all actions, or of all objects ("any").
 inline constexpr uint64_t kAny = ~uint64_t{0};
 
-enum class QuestionKind { kAction, kObject, kFull, kCategory, kSet };
+enum class QuestionKind { kAction, kObject, kFull, kCategory, kSet, kChoice };
 
-/// "action", "object", "full", "category", "set".
+/// "action", "object", "full", "category", "set", "choice".
 const char* Name(QuestionKind kind);
 
-struct Question {
-  QuestionKind kind = QuestionKind::kFull;
+/// The wanted action is one of `actions` and the wanted object one of `objects`.
+struct Proposition {
   uint64_t actions = kAny;  // bits are indices of Affordances::actions()
   uint64_t objects = kAny;  // bits are indices of Situation::objects
-  int pair = -1;  // of a full question: the candidate that a yes accepts; < 0 where it is absent
+  int pair = -1;  // of one action and one object: the candidate that saying so accepts; < 0 where
+                  // it is absent
 
-  /// Whether a user who wants `wanted` means yes.
   bool Holds(const Pair& wanted) const {
     return (actions >> wanted.action & 1) != 0 && (objects >> wanted.object & 1) != 0;
   }
+  bool operator==(const Proposition&) const = default;
+};
+
+/// What is put to the user. The answers are its options in their order and, last, "none of them":
+/// a yes/no question has one option ("Yes") and "No". Where several options hold the first is
+/// meant.
+struct Question {
+  QuestionKind kind = QuestionKind::kFull;
+  std::vector<Proposition> options;
+
+  int answers() const { return static_cast<int>(options.size()) + 1; }
+  /// The last answer: "No", "None of these".
+  int none() const { return static_cast<int>(options.size()); }
+  /// Index of the answer that a user means who wants `wanted`.
+  int Meant(const Pair& wanted) const {
+    int answer = 0;
+    while (answer < none() && !options[answer].Holds(wanted)) ++answer;
+    return answer;
+  }
+  /// The candidate that an answer accepts, or < 0.
+  int Accepts(int answer) const { return answer < none() ? options[answer].pair : -1; }
   bool operator==(const Question&) const = default;
 };
 
+inline Question AskYesNo(QuestionKind kind, const Proposition& proposition) {
+  return {kind, {proposition}};
+}
 inline Question AskAction(int action) {
-  return {QuestionKind::kAction, uint64_t{1} << action, kAny, -1};
+  return AskYesNo(QuestionKind::kAction, {uint64_t{1} << action, kAny, -1});
 }
 inline Question AskObject(int object) {
-  return {QuestionKind::kObject, kAny, uint64_t{1} << object, -1};
+  return AskYesNo(QuestionKind::kObject, {kAny, uint64_t{1} << object, -1});
+}
+/// "It is this pair."
+inline Proposition PairProposition(const Situation& situation, int pair) {
+  const Pair& wanted = situation.pairs[pair];
+  return {uint64_t{1} << wanted.action, uint64_t{1} << wanted.object, pair};
 }
 inline Question AskPair(const Situation& situation, int pair) {
-  const Pair& wanted = situation.pairs[pair];
-  return {QuestionKind::kFull, uint64_t{1} << wanted.action, uint64_t{1} << wanted.object, pair};
+  return AskYesNo(QuestionKind::kFull, PairProposition(situation, pair));
 }
 
 /// The question in plain English: "Open the nearest carton?".
 std::string Text(const Affordances& affordances, const Situation& situation,
                  const Question& question);
+/// An option of a choice: "Open the carton", "pour from something", "the second mug".
+std::string OptionText(const Affordances& affordances, const Situation& situation,
+                       const Proposition& option);
 /// "the carton", "the nearest mug", "the second mug".
 std::string TheObject(const Affordances& affordances, const Situation& situation, int object);
 /// "Open the nearest carton".

@@ -18,6 +18,14 @@ uint64_t Situation::KnownMask() const {
   return mask;
 }
 
+std::vector<int> Situation::Present(const Affordances& affordances) const {
+  std::vector<int> present(affordances.categories().size(), 0);
+  for (const Instance& object : objects) {
+    if (object.category >= 0) ++present[static_cast<size_t>(object.category)];
+  }
+  return present;
+}
+
 int Situation::Find(int object, int action) const {
   for (int i = 0; i < pair_count(); ++i) {
     if (pairs[i].object == object && pairs[i].action == action) return i;

@@ -44,6 +44,8 @@ struct Situation {
   uint64_t MaskOf(int category) const;
   /// Objects that afford something, as a mask.
   uint64_t KnownMask() const;
+  /// Instances by category.
+  std::vector<int> Present(const Affordances& affordances) const;
   /// Index of a pair, or -1.
   int Find(int object, int action) const;
   int Find(int category, int rank, int action) const;
