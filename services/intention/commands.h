@@ -5,6 +5,7 @@
 #include "services/intention/history_commands.h"
 #include "services/intention/scenario_file.h"
 #include "services/intention/service.h"
+#include "services/intention/simulate_command.h"
 
 namespace beckon::intention {
 
@@ -25,8 +26,10 @@ class CommandLine {
   ServiceConfig flags_;  // empty texts: not given
   EvaluateOptions evaluate_;
   double assume_flip_ = -1;
+  SimulateOptions simulate_;
   HistoryOptions history_;
   CLI::App* evaluate_command_ = nullptr;
+  CLI::App* simulate_command_ = nullptr;
   CLI::App* history_command_ = nullptr;
   CLI::App* export_command_ = nullptr;
   CLI::App* import_command_ = nullptr;

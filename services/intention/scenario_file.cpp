@@ -36,6 +36,14 @@ std::string NeedText(const json& object, const char* key) {
   return value.get<std::string>();
 }
 
+Utime NeedUtime(const json& object) {
+  const json& value = Need(object, "utime");
+  if (!value.is_number_integer() || value < 0) {
+    throw std::string("'utime' must be a whole number of microseconds since the epoch");
+  }
+  return value.get<Utime>();
+}
+
 int NeedCategory(const json& object, const Affordances& affordances) {
   const std::string name = NeedText(object, "category");
   const int category = affordances.FindCategory(name);
@@ -66,6 +74,7 @@ ScenarioSession ParseSession(const std::string& line, const Affordances& afforda
     all_lateral &= object.contains("lateral_m");
   }
   for (Thing& thing : session.scene) thing.lateral_m = all_lateral ? thing.lateral_m : 0;
+  if (root.contains("utime")) session.utime = NeedUtime(root);
   const json& want = Need(root, "want");
   session.want_category = NeedCategory(want, affordances);
   const json& instance = Need(want, "instance");

@@ -9,7 +9,7 @@
 namespace beckon::intention {
 
 /// A line of a scenario: {"user", "scene": [{"category", "distance_m", "lateral_m"?}, ..], "want":
-/// {"category", "instance", "action"}}; other keys are carried through.
+/// {"category", "instance", "action"}, "utime"?}; other keys are carried through.
 struct ScenarioLine {
   ScenarioSession session;
   std::string json;  // the line itself
