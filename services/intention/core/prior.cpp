@@ -1,74 +1,55 @@
 #include "services/intention/core/prior.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <numeric>
-#include <utility>
+#include <span>
+
+#include "services/intention/core/instance_habit.h"
+#include "services/intention/core/learner.h"
+#include "services/intention/core/tasks.h"
 
 namespace beckon::intention {
 namespace {
 
-/// Older sessions weigh less than 0.95^200 = 3.5e-5.
-constexpr size_t kOldest = 200;
-
-/// Decayed counts of a user's past.
-struct Counts {
-  std::map<std::pair<int, int>, double> pairs;  // (category, action)
-  std::map<int, double> ranks;
-  double repeats = 0;
-  double switches = 0;
-};
-
-bool SameTask(const PastSession& a, const PastSession& b) {
-  return a.category == b.category && a.action == b.action;
-}
-
-Counts CountPast(const UserHistory& history, double forgetting) {
-  Counts counts;
-  const size_t oldest = history.size() - std::min(history.size(), kOldest);
-  double weight = 1;
-  for (size_t i = history.size(); i-- > oldest; weight *= forgetting) {
-    const PastSession& past = history[i];
-    counts.pairs[{past.category, past.action}] += weight;
-    counts.ranks[past.rank] += weight;
-    if (i > 0) (SameTask(past, history[i - 1]) ? counts.repeats : counts.switches) += weight;
-  }
-  return counts;
-}
-
-/// The pair of the last session in this scene: its rank where it is there, else the nearest; or -1.
-int FindLast(const Situation& situation, const UserHistory& history) {
-  if (history.empty()) return -1;
-  const PastSession& last = history.back();
-  const int same = situation.Find(last.category, last.rank, last.action);
-  return same >= 0 ? same : situation.Find(last.category, 1, last.action);
-}
+/// Sessions further back are not looked at: they would not matter and would take time.
+constexpr size_t kWindow = 1000;
 
 }  // namespace
 
-std::vector<double> PriorOver(const Situation& situation, const UserHistory& history,
-                              const PriorConfig& config) {
+std::vector<double> PriorOver(const Situation& situation, const UserHistory& history) {
   std::vector<double> prior;
   if (situation.pairs.empty()) return prior;
-  const Counts counts = CountPast(history, config.forgetting);
+  const auto past = std::span(history).last(std::min(history.size(), kWindow));
+  const Tasks tasks(situation, past);
+  Learner learner(tasks);
+  InstanceHabit instances(tasks.categories());
+  std::vector<int> present;
+  for (const PastSession& session : past) {
+    tasks.Present(session, present);
+    const int task = tasks.Find(session.category, session.action);
+    const int category = tasks.category(task);
+    learner.Learn(task, present);
+    instances.Learn(category, session.rank, present[static_cast<size_t>(category)]);
+  }
+
+  present = tasks.Present(situation);
+  const std::vector<double> wanted = learner.Predict(present);
+  std::vector<std::vector<double>> choice;  // by category, the likeliest instance 1
+  for (int c = 0; c < tasks.categories(); ++c) {
+    choice.push_back(instances.Predict(c, present[static_cast<size_t>(c)]));
+    const auto most = std::max_element(choice.back().begin(), choice.back().end());
+    const double scale = most == choice.back().end() ? 1 : *most;
+    for (double& p : choice.back()) p /= scale;
+  }
   for (const Pair& pair : situation.pairs) {
-    const Instance& object = situation.objects[pair.object];
-    const auto n = counts.pairs.find({object.category, pair.action});
-    const auto m = counts.ranks.find(object.rank);
-    const double g =
-        (m == counts.ranks.end() ? 0 : m->second) +
-        config.rank_prior * (1 - config.rank_decay) * std::pow(config.rank_decay, object.rank - 1);
-    prior.push_back(((n == counts.pairs.end() ? 0 : n->second) + config.pseudo_count) * g);
+    const Instance& object = situation.objects[static_cast<size_t>(pair.object)];
+    const int task = tasks.Find(object.category, pair.action);
+    prior.push_back(
+        wanted[static_cast<size_t>(task)] *
+        choice[static_cast<size_t>(tasks.category(task))][static_cast<size_t>(object.rank) - 1]);
   }
   const double sum = std::accumulate(prior.begin(), prior.end(), 0.0);
-  const int last = FindLast(situation, history);
-  const double repeat =
-      last < 0 ? 0
-               : (counts.repeats + config.repeat_prior) /
-                     (counts.repeats + counts.switches + config.repeat_prior + config.switch_prior);
-  for (double& p : prior) p *= (1 - repeat) / sum;
-  if (last >= 0) prior[last] += repeat;
+  for (double& p : prior) p /= sum;
   return prior;
 }
 

@@ -1,0 +1,53 @@
+// Which task a user wants next, learnt from one confirmed session after another.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "services/intention/core/habit.h"
+#include "services/intention/core/tasks.h"
+
+namespace beckon::intention {
+
+/// A want has one of three reasons: the same task again; what followed the last task before; or
+/// habit. How often it is which is the user's own: a grid of possible users, weighed by how well
+/// each predicted this one (Bayes), with a little of the prior coming back each session so that the
+/// weights follow a change (fixed share, Herbster & Warmuth 1998). See docs/intention.md.
+class Learner {
+ public:
+  /// `tasks` must outlive the learner.
+  explicit Learner(const Tasks& tasks);
+
+  /// P(task | what is present) for every task; 0 for those that are not there.
+  std::vector<double> Predict(const std::vector<int>& present);
+  /// The task was wanted. What is present: instances by category, not 0 for the task's.
+  void Learn(int task, const std::vector<int>& present);
+
+ private:
+  /// How often the last task is wanted again where it is there.
+  static constexpr std::array<double, 4> kRepeats = {0, 0.3, 0.6, 0.9};
+  /// What followed n times is trusted n / (n + doubt); the last: never.
+  static constexpr std::array<double, 4> kDoubts = {0.2, 1.5, 8, 1e9};
+  using Grid = std::array<std::array<double, kDoubts.size()>, kRepeats.size()>;
+
+  struct Reasons {
+    double again = 0;
+    double follows = 0;
+    double habit = 0;
+  };
+
+  static Grid Prior();
+  /// Of what followed the last task, how many are present.
+  double Followers(const std::vector<int>& present) const;
+  /// Mean over the grid.
+  Reasons Weigh(const std::vector<int>& present, double followers) const;
+  bool LastIsPresent(const std::vector<int>& present) const;
+
+  const Tasks& tasks_;
+  Habit habit_;
+  Grid grid_ = Prior();  // posterior
+  int last_ = -1;
+  std::vector<std::vector<double>> followed_;  // by task, then by task that came next
+};
+
+}  // namespace beckon::intention
