@@ -44,6 +44,8 @@ CommandLine::CommandLine(CLI::App& app) {
                    "What the policy believes of it (default: with --flip 0 that no "
                    "answer is wrong, else it learns the rate)")
       ->check(CLI::Range(0.0, 0.5));
+  evaluate_command_->add_option("--lambda", evaluate_.lambda, "Learning rate of oain (default: 1)")
+      ->check(CLI::Range(0.001, 1000.0));
   evaluate_command_->add_option("--seed", evaluate_.config.seed, "Of ties and wrong answers");
   simulate_command_ = AddSimulateCommand(app, simulate_);
 

@@ -167,7 +167,7 @@ Result<std::vector<ScenarioLine>> ReadScenario(const std::string& path,
 Status Evaluate(const EvaluateOptions& options, const Affordances& affordances) {
   const auto families =
       options.queries == "aof" ? QueryFamilies::kActionObjectFull : QueryFamilies::kAll;
-  const auto policy = MakePolicy(options.policy, affordances, families);
+  const auto policy = MakePolicy(options.policy, affordances, families, options.lambda);
   if (!policy) return policy.error();
   const auto lines = ReadScenario(options.scenario, affordances);
   if (!lines) return lines.error();

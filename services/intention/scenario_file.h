@@ -24,6 +24,7 @@ struct EvaluateOptions {
   std::string scenario;
   std::string policy = "adaptive";
   std::string queries = "all";  // or "aof": action, object and full queries only
+  double lambda = 1;            // learning rate of oain
   std::string jsonl;            // output file
   EvaluationConfig config;
 };

@@ -3,14 +3,14 @@
 namespace beckon::intention {
 
 Result<std::unique_ptr<Policy>> MakePolicy(const std::string& name, const Affordances& affordances,
-                                           QueryFamilies families) {
+                                           QueryFamilies families, double lambda) {
   if (name == "adaptive") {
     AdaptiveConfig config;
     config.families = families;
     return MakeAdaptivePolicy(config);
   }
-  if (name == "oain") return MakeOainPolicy(affordances);
-  if (name == "count") return MakeCountPolicy();
+  if (name == "oain") return MakeOainPolicy(affordances, lambda);
+  if (name == "count") return MakeCountPolicy(affordances);
   if (name == "random") return MakeRandomPolicy(affordances);
   if (name == "random-scene") return MakeRandomScenePolicy();
   return Error{"unknown policy '" + name +

@@ -7,9 +7,11 @@
 
 namespace beckon::intention {
 
-/// The dissertation's (closed-form max-marginals, its learning rule and its pruning).
-std::unique_ptr<Policy> MakeOainPolicy(const Affordances& affordances);
-std::unique_ptr<Policy> MakeCountPolicy();
+/// The dissertation's: max-marginals of its network, its learning rule at rate `lambda`, its
+/// pruning.
+std::unique_ptr<Policy> MakeOainPolicy(const Affordances& affordances, double lambda = 1);
+/// Its count baseline, which learnt once and never again.
+std::unique_ptr<Policy> MakeCountPolicy(const Affordances& affordances);
 std::unique_ptr<Policy> MakeRandomScenePolicy();
 std::unique_ptr<Policy> MakeRandomPolicy(const Affordances& affordances);
 

@@ -69,8 +69,8 @@ enum class QueryFamilies {
 };
 
 /// "adaptive", "oain", "count", "random", "random-scene"; fails on other names. `affordances` must
-/// outlive the policy.
+/// outlive the policy. `lambda`: learning rate of oain, > 0.
 Result<std::unique_ptr<Policy>> MakePolicy(const std::string& name, const Affordances& affordances,
-                                           QueryFamilies families);
+                                           QueryFamilies families, double lambda = 1);
 
 }  // namespace beckon::intention
