@@ -1,5 +1,5 @@
 # Short verbs for people. Each installs what it needs first (Debian packages, through apt).
-.PHONY: demo test build bench format dependencies help
+.PHONY: demo test build bench experiments format dependencies help
 
 build_dir := build/release
 
@@ -8,6 +8,7 @@ help:
 	@echo "make test    build and run every test"
 	@echo "make build   release binaries in $(build_dir)/bin"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
+	@echo "make experiments  the intention network's evaluation, as docs/experiments (some minutes)"
 	@echo "make format  clang-format on every source file"
 
 dependencies:
@@ -27,6 +28,11 @@ test: build
 
 bench: build
 	bench/run
+
+# EXPERIMENT_FLAGS="--quick": a small run; see tools/experiments/run --help
+experiments: build
+	deploy/install-deps python3-matplotlib python3-numpy
+	tools/experiments/run $(EXPERIMENT_FLAGS)
 
 format: dependencies
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -1,0 +1,87 @@
+"""Front ends that differ: seconds a task. And how far from the best possible the questions are."""
+
+from dataclasses import dataclass
+
+import plots
+from lab import Run
+from report import table
+from scenarios import FIRST_SEED, KINDS
+from summaries import Errors, mean, mean_over_users, of_sessions
+
+SESSIONS = 200
+
+
+@dataclass(frozen=True)
+class FrontEnd:
+    name: str
+    kind: str
+    options: int  # answers of a question, "none of these" among them
+    question_s: float = 2.0  # to hear or read a question
+    option_s: float = 0.5  # for each answer shown; of a scan: until the next is shown
+    flip: float = 0.0
+
+    def arguments(self):
+        return ("--interface", self.kind, "--max-options", str(self.options),
+                "--seconds-per-question", str(self.question_s), "--seconds-per-option", str(self.option_s))
+
+
+FRONT_ENDS = (
+    FrontEnd("yes/no switch", "yesno", 2),
+    FrontEnd("choice of 4", "choice", 4), FrontEnd("choice of 6", "choice", 6), FrontEnd("choice of 8", "choice", 8),
+    FrontEnd("scanner, 2 items", "scan", 2, option_s=1.0), FrontEnd("scanner, 4 items", "scan", 4, option_s=1.0),
+    FrontEnd("scanner, 8 items", "scan", 8, option_s=1.0),
+    FrontEnd("P300-like, 2 items", "vector", 2, option_s=1.5, flip=0.1),
+    FrontEnd("P300-like, 6 items", "vector", 6, option_s=1.5, flip=0.1),
+)
+
+
+def interfaces(lab, report):
+    if not lab.offers("evaluate", "--interface"):
+        report.skip("seconds at other front ends", "this beckon-intention has no `evaluate --interface`")
+        return
+    users = 1 if lab.quick else 5
+    scenarios = [lab.simulate(kind, users, SESSIONS, FIRST_SEED + 4) for kind in KINDS]
+    rows, spans = [], []
+    for front_end in FRONT_ENDS:
+        runs = lab.live(f"seconds, {front_end.name}", [
+            Run(scenario, flip=front_end.flip, more=front_end.arguments()) for scenario in scenarios])
+        rows.append(front_end_row(front_end, f"`adaptive`, {front_end.name}", runs))
+        spans.append((f"adaptive, {front_end.name}", plots.BLUE, mean_over_users(runs, "seconds")))
+    switch = FRONT_ENDS[0]
+    runs = lab.live("seconds, oain", [
+        Run(scenario, "oain", "aof", more=switch.arguments()) for scenario in scenarios])
+    rows.append(front_end_row(switch, "`oain`, yes/no switch", runs))
+    spans.append(("oain, yes/no switch", plots.VERMILION, mean_over_users(runs, "seconds")))
+    report.section(
+        "Seconds a task at other front ends",
+        f"Simulated users of all ten habits, {users} of each with {SESSIONS} sessions, seed {FIRST_SEED + 4}. A question "
+        "takes its seconds and those of each answer shown, \"none of these\" among them; a scan ends with the wanted item. "
+        "A P300-like device takes longer and is wrong in 10 % of its answers, which the policy is not told. The seconds "
+        "are assumptions; what counts is the difference between rows of equal seconds.",
+        table(["", "answers shown", "s a question", "s an answer", "flipped", "**seconds a task**", "first session",
+               "questions a task", "wrong"], rows),
+        plot_seconds(report, spans))
+
+
+def front_end_row(front_end, name, runs):
+    outcomes = [outcome for run in runs for outcome in run]
+    seconds, half = mean_over_users(runs, "seconds")
+    return [name, f"up to {front_end.options}", front_end.question_s, front_end.option_s, f"{100 * front_end.flip:g} %",
+            f"{seconds:.1f} ± {half:.1f}", f"{mean(of_sessions(outcomes, 1, 1), 'seconds'):.1f}", f"{mean(outcomes):.2f}",
+            f"{100 * Errors(runs).wrong_rate():.2f} %"]
+
+
+def plot_seconds(report, spans):
+    figure, (axis,) = plots.panels(1, width=7, height=3.8)
+    for place, (name, colour, (seconds, half)) in enumerate(spans):
+        axis.barh(place, seconds, xerr=half, color=colour, height=0.65, error_kw={"capsize": 2, "elinewidth": 1})
+        axis.annotate(f"{seconds:.1f}", (seconds + half, place), textcoords="offset points", xytext=(4, -3), fontsize=8)
+    axis.set(yticks=range(len(spans)), yticklabels=[name for name, _, _ in spans],
+             xlabel="seconds a task, mean over users")
+    axis.grid(axis="y", visible=False)
+    axis.invert_yaxis()
+    return plots.save(figure, report, "seconds", "Seconds a task by front end")
+
+
+def regret(lab, report):
+    report.skip("regret", "this beckon-intention has no `regret`")
