@@ -129,12 +129,34 @@ struct ObjectRef {
   int instance = 1;  // 1 = the nearest of its category
 };
 
+/// An answer to choose. The wanted action is one of `actions` and the wanted object one of
+/// `objects` (ids), where empty means any; the last option of a choice has neither.
 struct Option {
   std::string text;
-  std::string category;
-  std::string action;
+  std::string category;  // of a "what is it?" question
+  std::vector<std::string> actions;
   std::vector<int> objects;
 };
+
+/// What an option leads to.
+struct Prospect {
+  float probability = 0;
+  float questions_left = 0;
+  float seconds_left = 0;
+};
+
+/// A task that may be meant.
+struct Candidate {
+  std::string action;
+  ObjectRef object;
+  double prior = 0;
+  double posterior = 0;
+  int times = 0;
+  int sessions_ago = 0;  // 0 = never
+};
+
+/// Most candidates that a query names.
+inline constexpr int kMaxCandidates = 8;
 
 enum class QueryKind : int8_t {
   kAction = 1,
@@ -165,7 +187,12 @@ struct Query {
   int questions_asked = 0;
   int n_candidates = 0;
   double expected_questions = 0;
+  double expected_seconds = 0;
   double best_posterior = 0;
+  std::string why;
+  double information_bits = 0;
+  std::vector<Prospect> prospects;   // one an option, or none
+  std::vector<Candidate> likeliest;  // likeliest first
   Seal seal;
 };
 

@@ -1,7 +1,6 @@
 #include "services/ui_bridge/simulated_user.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace beckon::ui_bridge {
@@ -27,7 +26,7 @@ std::optional<size_t> NoneOption(const msg::Query& query) {
   for (size_t i = query.options.size(); i-- > 0;) {
     const auto& option = query.options[i];
     if (option.category == msg::kUnknownCategory) return i;
-    if (option.category.empty() && option.action.empty() && option.objects.empty()) return i;
+    if (option.category.empty() && option.actions.empty() && option.objects.empty()) return i;
   }
   return {};
 }
@@ -142,29 +141,27 @@ Response SimulatedUser::AnswerProposition(const msg::Query& query) {
   return Choose{yes ? size_t{0} : size_t{1}};  // options are Yes, No in this order
 }
 
+// Where several options hold the first is meant.
 Response SimulatedUser::AnswerChoice(const msg::Query& query) {
-  std::optional<size_t> best;
-  size_t best_breadth = std::numeric_limits<size_t>::max();
-  for (size_t i = 0; i < query.options.size(); ++i) {
-    const auto& option = query.options[i];
-    if (option.action.empty() && option.category.empty() && option.objects.empty()) continue;
-    if (!option.action.empty() && option.action != config_.action) continue;
-    if (!option.category.empty() && option.category != config_.category) continue;
-    if (!option.objects.empty() && std::ranges::count(option.objects, *wanted_id_) == 0) continue;
-    // Of several that fit, the one that says most.
-    const size_t breadth = (option.action.empty() ? 1000 : 0) + (option.category.empty() ? 1 : 0) +
-                           (option.objects.empty() ? 500 : option.objects.size());
-    if (breadth < best_breadth) {
-      best_breadth = breadth;
-      best = i;
-    }
-  }
-  if (Slips()) {
-    const size_t from = best.value_or(0);
-    return Choose{(from + 1 + engine_() % (query.options.size() - 1)) % query.options.size()};
-  }
-  if (best) return Choose{*best};
-  return NoneOf(query);
+  const auto wanted =
+      std::ranges::find_if(query.objects, [this](const auto& o) { return IsWanted(o); });
+  const auto holds = [&](const msg::Option& option) {
+    if (option.actions.empty() && option.objects.empty()) return false;
+    const bool action =
+        option.actions.empty() || std::ranges::count(option.actions, config_.action) > 0;
+    const bool object =
+        option.objects.empty() || (wanted != query.objects.end() &&
+                                   std::ranges::count(option.objects, wanted->object_id) > 0);
+    return action && object;
+  };
+  std::optional<size_t> meant;
+  const auto first = std::ranges::find_if(query.options, holds);
+  if (first != query.options.end()) meant = static_cast<size_t>(first - query.options.begin());
+  if (!meant) meant = NoneOption(query);
+  if (!meant) return RefuseAll{};
+  if (Slips())
+    *meant = (*meant + 1 + engine_() % (query.options.size() - 1)) % query.options.size();
+  return Choose{*meant};
 }
 
 bool SimulatedUser::Slips() {

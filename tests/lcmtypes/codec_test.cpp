@@ -127,6 +127,25 @@ TEST(Codec, AControlMessageFitsADatagram) {
   EXPECT_THAT(bytes.error().message, HasSubstr("60000"));
 }
 
+// Every option of the most there may be names every object and eight actions.
+TEST(Codec, TheLargestChoiceFitsADatagram) {
+  msg::Query query = msg::ExampleQuery();
+  query.kind = msg::QueryKind::kChoice;
+  query.why = std::string(1024, 'w');
+  const std::string name(24, 'n');
+  query.objects.assign(msg::kMaxObjects, {.object_id = 1, .category = name, .instance = 1});
+  query.likeliest.assign(msg::kMaxCandidates, {.action = name, .object = query.objects[0]});
+  query.prospects.assign(64, {});
+  query.options.assign(64, {.text = std::string(200, 't'),
+                            .category = "",
+                            .actions = std::vector<std::string>(8, name),
+                            .objects = std::vector<int>(msg::kMaxObjects, 1)});
+  const auto bytes = Codec<msg::Query>::Encode(query);
+  ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+  EXPECT_LT(bytes->size(), msg::kMaxDatagram);
+  EXPECT_EQ(Codec<msg::Query>::Decode(*bytes)->options.size(), 64u);
+}
+
 TEST(Codec, RefusesValuesThatBreakTheRules) {
   const auto refused = []<typename T>(T value, auto break_it) {
     break_it(value);
@@ -141,6 +160,24 @@ TEST(Codec, RefusesValuesThatBreakTheRules) {
   EXPECT_TRUE(
       refused(msg::ExampleQuery(), [](auto& q) { q.kind = static_cast<msg::QueryKind>(99); }));
   EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.text = "\x1b[2J"; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [&](auto& q) { q.expected_seconds = nan; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.why = "\x1b[2J"; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.why = std::string(1025, 'x'); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.information_bits = -1; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.prospects.pop_back(); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.prospects[0].probability = 1.1f; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.prospects[1].questions_left = -1; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(),
+                      [&](auto& q) { q.prospects[1].seconds_left = static_cast<float>(nan); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest[0].prior = 1.5; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [&](auto& q) { q.likeliest[0].posterior = nan; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest[0].action.clear(); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest[0].object.instance = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest[0].sessions_ago = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest[1].times = -1; }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.likeliest.resize(9, q.likeliest[0]); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.options[0].actions[1].clear(); }));
+  EXPECT_TRUE(refused(msg::ExampleQuery(), [](auto& q) { q.options[0].objects[0] = 0; }));
   EXPECT_TRUE(refused(msg::ExampleSession(), [](auto& s) { s.user = "../../etc"; }));
   EXPECT_TRUE(
       refused(msg::ExampleSession(), [](auto& s) { s.kind = static_cast<msg::SessionKind>(8); }));
@@ -173,7 +210,7 @@ TEST(Codec, FingerprintsAreLocked) {
   const std::map<std::string, uint64_t> locked = {
       {"answer_t", 0xa22727a8afbaf8c6},  {"frame_t", 0x5b22eba1617c64a5},
       {"history_t", 0xcd16f6d015811a6c}, {"interface_t", 0x8fbf178510e3e991},
-      {"poses_t", 0x4af28811c3ba830f},   {"query_t", 0xcfb20da055f8536a},
+      {"poses_t", 0x4af28811c3ba830f},   {"query_t", 0xcacf0cc24ccdf064},
       {"scene_t", 0x332ecbbba7cbfe17},   {"session_t", 0x1e39e1f4c26e2b7c},
       {"status_t", 0x11a1e4a40922e1e7},  {"task_status_t", 0xc7536171eaec0f69},
       {"task_t", 0xa2daf734834e4a51}};

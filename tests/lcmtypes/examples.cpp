@@ -97,12 +97,31 @@ Query ExampleQuery() {
   query.actions = {"Open"};
   query.any_object = false;
   query.objects = {{.object_id = 4, .category = "Carton", .instance = 1}};
-  query.options = {{.text = "Yes", .category = "", .action = "", .objects = {4}}, {.text = "No"}};
+  query.options = {
+      {.text = "Yes", .category = "Carton", .actions = {"Grasp", "Open"}, .objects = {4, 5}},
+      {.text = "No"}};
   query.scene_seq = 2;
   query.questions_asked = 1;
   query.n_candidates = 12;
   query.expected_questions = 2.5;
+  query.expected_seconds = 20;
   query.best_posterior = 0.4;
+  query.why = "You wanted to open the carton in 7 of the last 9 sessions.";
+  query.information_bits = 0.97;
+  query.prospects = {{.probability = 0.4f, .questions_left = 0, .seconds_left = 0},
+                     {.probability = 0.6f, .questions_left = 2.5f, .seconds_left = 20}};
+  query.likeliest = {{.action = "Open",
+                      .object = query.objects[0],
+                      .prior = 0.3,
+                      .posterior = 0.4,
+                      .times = 7,
+                      .sessions_ago = 2},
+                     {.action = "Pour",
+                      .object = {.object_id = 5, .category = "Carton", .instance = 2},
+                      .prior = 0.1,
+                      .posterior = 0.2,
+                      .times = 0,
+                      .sessions_ago = 0}};
   query.seal = ExampleSeal();
   return query;
 }

@@ -20,7 +20,7 @@ msg::Query Ask(int64_t id, msg::QueryKind kind = msg::QueryKind::kFull) {
   query.user = "ann";
   query.kind = kind;
   query.text = "question " + std::to_string(id);
-  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+  query.options = {{.text = "Yes"}, {.text = "No"}};
   return query;
 }
 

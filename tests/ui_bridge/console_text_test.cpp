@@ -16,7 +16,7 @@ msg::Query YesNo() {
   query.text = "Open the carton?";
   query.questions_asked = 2;
   query.expected_questions = 3.2;
-  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+  query.options = {{.text = "Yes"}, {.text = "No"}};
   return query;
 }
 
@@ -24,8 +24,9 @@ msg::Query WhatIsIt() {
   msg::Query query;
   query.text = "What is this?";
   query.expected_questions = 1;
-  query.options = {
-      {"a box", "Box", "", {}}, {"a tin", "Tin", "", {}}, {"None of these", "", "", {}}};
+  query.options = {{.text = "a box", .category = "Box"},
+                   {.text = "a tin", .category = "Tin"},
+                   {.text = "None of these"}};
   return query;
 }
 

@@ -59,7 +59,7 @@ class DialogueTest : public ::testing::Test {
     query.session_id = session_id;
     query.user = user;
     query.questions_asked = asked;
-    query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+    query.options = {{.text = "Yes"}, {.text = "No"}};
     dialogue_.OnQuery(query);
   }
 

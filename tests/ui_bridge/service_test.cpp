@@ -135,7 +135,7 @@ class ServiceTest : public ::testing::Test {
     query.session_id = session_;
     query.user = "ann";
     query.text = "This?";
-    query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+    query.options = {{.text = "Yes"}, {.text = "No"}};
     query.scene_seq = 1;
     ASSERT_TRUE(bus_->Publish(query));
   }

@@ -39,7 +39,7 @@ msg::Query YesNo(msg::QueryKind kind, std::vector<std::string> actions,
   query.actions = std::move(actions);
   query.any_object = objects.empty();
   query.objects = std::move(objects);
-  query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+  query.options = {{.text = "Yes"}, {.text = "No"}};
   return query;
 }
 
@@ -49,8 +49,8 @@ msg::Query WhatIsIt(int id, const std::vector<std::string>& categories) {
   query.kind = msg::QueryKind::kWhatIsIt;
   query.objects = {{id, "Unknown", 1}};
   for (const auto& category : categories)
-    query.options.push_back({"a " + category, category, "", {id}});
-  query.options.push_back({"None of these", msg::kUnknownCategory, "", {id}});  // as intention does
+    query.options.push_back({"a " + category, category, {}, {id}});
+  query.options.push_back({"None of these", msg::kUnknownCategory, {}, {id}});  // as intention does
   return query;
 }
 
@@ -152,21 +152,62 @@ TEST(SimulatedUser, AnswersNoneOfTheseByTheOptionForIt) {
   EXPECT_EQ(Choice(user.Respond(WhatIsIt(2, {"Mug", "Cup"}))), 2u);
 }
 
-TEST(SimulatedUser, ChoosesTheOptionThatFits) {
+msg::Query TaskChoice(std::vector<msg::ObjectRef> objects, std::vector<msg::Option> options) {
+  msg::Query query;
+  query.id = 3;
+  query.kind = msg::QueryKind::kChoice;
+  query.objects = std::move(objects);
+  query.options = std::move(options);
+  return query;
+}
+
+TEST(SimulatedUser, ChoosesTheFirstOptionThatHolds) {
   SimulatedUser user({.action = "Open", .category = "Carton"});
   user.SeeScene(TestScene({Object(1, "Carton", 0.5), Object(2, "Box", 0.7)}));
-  msg::Query query;
-  query.kind = msg::QueryKind::kChoice;
-  query.options = {{"grasp the carton", "", "Grasp", {1}},
-                   {"open the box", "", "Open", {2}},
-                   {"open something", "", "Open", {}},
-                   {"open the carton", "", "Open", {1}},
-                   {"None of these", "", "", {}}};
-  EXPECT_EQ(Choice(user.Respond(query)), 3u);
-  query.options.erase(query.options.begin() + 2, query.options.begin() + 4);
+  auto query = TaskChoice({{1, "Carton", 1}, {2, "Box", 1}},
+                          {{"grasp the carton", "", {"Grasp"}, {1}},
+                           {"open the box", "", {"Open"}, {2}},
+                           {"open or grasp something here", "", {"Grasp", "Open"}, {1, 2}},
+                           {"open the carton", "", {"Open"}, {1}},
+                           {.text = "None of these"}});
   EXPECT_EQ(Choice(user.Respond(query)), 2u);
+  query.options.erase(query.options.begin() + 2);
+  EXPECT_EQ(Choice(user.Respond(query)), 2u);
+  query.options.erase(query.options.begin() + 2);
+  EXPECT_EQ(Choice(user.Respond(query)), 2u) << "none of these";
   query.options.pop_back();
   EXPECT_TRUE(std::holds_alternative<RefuseAll>(user.Respond(query)));
+}
+
+TEST(SimulatedUser, ChoosesAmongActionsAndAmongObjects) {
+  SimulatedUser user({.action = "Open", .category = "Carton"});
+  user.SeeScene(TestScene({Object(1, "Carton", 0.5), Object(2, "Box", 0.7)}));
+  EXPECT_EQ(Choice(user.Respond(TaskChoice({}, {{"grasp", "", {"Grasp"}, {}},
+                                                {"open", "", {"Open"}, {}},
+                                                {.text = "None of these"}}))),
+            1u);
+  EXPECT_EQ(Choice(user.Respond(TaskChoice(
+                {{1, "Carton", 1}, {2, "Box", 1}},
+                {{"the box", "", {}, {2}}, {"the carton", "", {}, {1}}, {.text = "None"}}))),
+            1u);
+  EXPECT_EQ(Choice(user.Respond(TaskChoice(
+                {{1, "Tub", 1}, {2, "Box", 1}},
+                {{"the box", "", {}, {2}}, {"the tub", "", {}, {1}}, {.text = "None"}}))),
+            2u)
+      << "its carton is called a tub";
+}
+
+TEST(SimulatedUser, ASlippedChoiceIsAnyOtherOption) {
+  SimulatedUser user({.action = "Open", .category = "Carton", .flip = 0.3, .seed = 4});
+  user.SeeScene(TestScene({Object(1, "Carton", 0.5)}));
+  const auto query = TaskChoice({{1, "Carton", 1}}, {{"grasp", "", {"Grasp"}, {1}},
+                                                     {"open", "", {"Open"}, {1}},
+                                                     {"pour", "", {"Pour"}, {1}},
+                                                     {.text = "None of these"}});
+  std::vector<int> chosen(4);
+  for (int i = 0; i < 3000; ++i) ++chosen[Choice(user.Respond(query))];
+  EXPECT_NEAR(chosen[1], 2100, 100);
+  for (const int other : {0, 2, 3}) EXPECT_NEAR(chosen[other], 300, 70);
 }
 
 TEST(SimulatedUser, SlipsAsOftenAsToldAndTheSameWayForTheSameSeed) {

@@ -160,14 +160,28 @@ msg::ObjectRef Interview::Ref(int object) const {
 msg::Option Interview::OptionOf(const Proposition& option) const {
   msg::Option shown;
   shown.text = OptionText(affordances_, situation_, option);
-  if (std::has_single_bit(option.actions))
-    shown.action = affordances_.actions()[std::countr_zero(option.actions)].name;
-  for (size_t i = 0; option.objects != kAny && i < situation_.objects.size(); ++i) {
-    if ((option.objects >> i & 1) == 0) continue;
-    shown.category = Ref(static_cast<int>(i)).category;
-    shown.objects.push_back(input_.scene.objects[i].id);
-  }
+  shown.actions = ActionNames(option);
+  for (const msg::ObjectRef& object : ObjectRefs(option.objects))
+    shown.objects.push_back(object.object_id);
   return shown;
+}
+
+std::vector<std::string> Interview::ActionNames(const Proposition& proposition) const {
+  std::vector<std::string> names;
+  if (proposition.actions == kAny) return names;
+  for (size_t i = 0; i < affordances_.actions().size(); ++i) {
+    if (proposition.actions >> i & 1) names.push_back(affordances_.actions()[i].name);
+  }
+  return names;
+}
+
+std::vector<msg::ObjectRef> Interview::ObjectRefs(uint64_t objects) const {
+  std::vector<msg::ObjectRef> refs;
+  if (objects == kAny) return refs;
+  for (size_t i = 0; i < situation_.objects.size(); ++i) {
+    if (objects >> i & 1) refs.push_back(Ref(static_cast<int>(i)));
+  }
+  return refs;
 }
 
 msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) const {
@@ -194,22 +208,24 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
   }
   query.text = Text(affordances_, situation_, question);
   if (question.kind == QuestionKind::kChoice) {
-    for (const Proposition& option : question.options) query.options.push_back(OptionOf(option));
-    query.options.push_back({kNoneOfThese, "", "", {}});
+    uint64_t named = 0;
+    for (const Proposition& option : question.options) {
+      query.options.push_back(OptionOf(option));
+      if (option.objects != kAny) named |= option.objects;
+    }
+    query.objects = ObjectRefs(named);
+    query.options.push_back({.text = kNoneOfThese});
   } else {
     const Proposition& asked = question.options.front();
     query.any_action = asked.actions == kAny;
-    for (size_t i = 0; !query.any_action && i < affordances_.actions().size(); ++i) {
-      if (asked.actions >> i & 1) query.actions.push_back(affordances_.actions()[i].name);
-    }
+    query.actions = ActionNames(asked);
     query.any_object = asked.objects == kAny;
-    for (size_t i = 0; !query.any_object && i < situation_.objects.size(); ++i) {
-      if (asked.objects >> i & 1) query.objects.push_back(Ref(static_cast<int>(i)));
-    }
-    query.options = {{"Yes", "", "", {}}, {"No", "", "", {}}};
+    query.objects = ObjectRefs(asked.objects);
+    query.options = {{.text = "Yes"}, {.text = "No"}};
   }
   query.n_candidates = belief.possible_pairs;
   query.expected_questions = belief.expected_questions;
+  query.expected_seconds = belief.expected_seconds;
   query.best_posterior = belief.best_posterior;
   return query;
 }
@@ -225,9 +241,9 @@ void Interview::AskObject(int object) {
   offer_ = Offer(object);
   for (const int category : offer_) {
     const std::string& name = affordances_.categories()[category].name;
-    query.options.push_back({WithArticle(Noun(name)), name, "", {id}});
+    query.options.push_back({WithArticle(Noun(name)), name, {}, {id}});
   }
-  query.options.push_back({kNoneOfThese, msg::kUnknownCategory, "", {id}});
+  query.options.push_back({kNoneOfThese, msg::kUnknownCategory, {}, {id}});
   query.n_candidates = situation_.pair_count();
   query.expected_questions = 1;
   outcome_ = std::move(query);

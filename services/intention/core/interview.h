@@ -136,6 +136,9 @@ class Interview {
   const DeviceModel& Device(const std::string& device) const;
   msg::ObjectRef Ref(int object) const;
   msg::Option OptionOf(const Proposition& option) const;
+  /// Of a proposition; empty where it is any.
+  std::vector<std::string> ActionNames(const Proposition& proposition) const;
+  std::vector<msg::ObjectRef> ObjectRefs(uint64_t objects) const;
   msg::Query TaskQuery(const Question& question, const Belief& belief) const;
   void Accept(int pair, const Belief& belief);
 
