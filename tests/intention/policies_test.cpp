@@ -109,5 +109,88 @@ TEST(OainPolicy, PrunesAsTheDissertationDoes) {
   EXPECT_FALSE(dialogue->Accepted());
 }
 
+/// Questions of sessions that all want the same, by one user.
+std::vector<int> Repeat(const Affordances& a, const Policy& policy, const ScenarioSession& session,
+                        int times, uint64_t seed = 1) {
+  EvaluationConfig config;
+  config.seed = seed;
+  Evaluation evaluation(a, policy, config, [] { return 0.0; });
+  std::vector<int> questions;
+  for (int i = 0; i < times; ++i) questions.push_back(evaluation.Live(session).questions);
+  return questions;
+}
+
+ScenarioSession OpenCarton(const Affordances& a) {
+  return {.user = "u",
+          .scene = Things(a, {{"Bottle", 0.4},
+                              {"Box", 0.5},
+                              {"Carton", 0.6},
+                              {"Mug", 0.7},
+                              {"Tin", 0.3},
+                              {"Bowl", 0.8}}),
+          .want_category = a.FindCategory("Carton"),
+          .want_rank = 1,
+          .want_action = a.FindAction("Open")};
+}
+
+TEST(OainPolicy, LearnsFasterAtAHigherRate) {
+  const Affordances a = TestAffordances();
+  const auto last_session = [&](double lambda) {
+    return Repeat(a, **MakePolicy("oain", a, QueryFamilies::kAll, lambda), OpenCarton(a), 9).back();
+  };
+  EXPECT_EQ(last_session(9), 1);
+  EXPECT_GT(last_session(1), 1);
+  EXPECT_GT(last_session(0.1), last_session(1));
+}
+
+TEST(OainPolicy, GivesTiesToFullQueries) {
+  const Affordances a = TestAffordances();
+  const Situation s = MakeSituation(a, OpenCarton(a).scene);
+  PastSession past;
+  past.category = a.FindCategory("Carton");
+  past.action = a.FindAction("Open");
+  // By now the action, the object and their pair are within 1e-8 of certain.
+  const UserHistory history(40, past);
+  const auto policy = MakePolicy("oain", a, QueryFamilies::kAll);
+  for (uint64_t seed = 1; seed < 20; ++seed) {
+    const auto dialogue = (*policy)->Begin(s, history, Interface::YesNo(), seed);
+    EXPECT_EQ(dialogue->Ask(), AskPair(s, s.Find(past.category, 1, past.action)));
+  }
+}
+
+TEST(CountPolicy, AsksActionsFirstAndNeverLearns) {
+  const Affordances a = TestAffordances();
+  const auto policy = MakePolicy("count", a, QueryFamilies::kActionObjectFull);
+  const Situation s = MakeSituation(a, OpenCarton(a).scene);
+  PastSession past;
+  past.category = a.FindCategory("Mug");
+  past.action = a.FindAction("Drink");
+  for (uint64_t seed = 1; seed < 20; ++seed) {
+    const auto fresh = (*policy)->Begin(s, {}, Interface::YesNo(), seed);
+    const auto used = (*policy)->Begin(s, UserHistory(50, past), Interface::YesNo(), seed);
+    const Evidence no = Interface::YesNo().errors.Hear({0, 1});
+    int actions = 0;
+    for (; fresh->Ask() && fresh->Ask()->kind == QuestionKind::kAction; ++actions) {
+      ASSERT_EQ(fresh->Ask(), used->Ask());
+      // What was frozen is opening, grasping and pouring.
+      const Question question = *fresh->Ask();
+      const bool frozen = question == AskAction(a.FindAction("Open")) ||
+                          question == AskAction(a.FindAction("Grasp")) ||
+                          question == AskAction(a.FindAction("Pour"));
+      EXPECT_EQ(frozen, actions < 3);
+      fresh->Hear(question, no);
+      used->Hear(question, no);
+    }
+    EXPECT_EQ(actions, 6);  // all that the scene has
+  }
+}
+
+TEST(CountPolicy, WorksWithoutTheVocabularyItWasFrozenWith) {
+  const auto a = Affordances::Make({{"Sit", "sit on"}}, {{"Chair", {"Sit"}}});
+  ASSERT_TRUE(a.ok());
+  const ScenarioSession sit{.user = "u", .scene = {{0, 1.0, 0}}};
+  EXPECT_LE(Repeat(*a, **MakePolicy("count", *a, QueryFamilies::kAll), sit, 1).front(), 2);
+}
+
 }  // namespace
 }  // namespace beckon::intention
