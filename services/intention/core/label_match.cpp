@@ -31,4 +31,13 @@ const LabelRecord* FindLabel(const std::vector<LabelRecord>& labels, const std::
   return nullptr;
 }
 
+bool LooksAlike(const msg::SceneObject& a, const msg::SceneObject& b,
+                const LabelMatchConfig& config) {
+  const bool sizes_known = !a.extent_W.isZero() && !b.extent_W.isZero();
+  if (sizes_known && (a.extent_W - b.extent_W).cwiseAbs().maxCoeff() > config.extent_m)
+    return false;
+  const bool opinions_known = !a.probabilities.empty() && !b.probabilities.empty();
+  return !opinions_known || TotalVariation(a.probabilities, b.probabilities) <= config.likeness;
+}
+
 }  // namespace beckon::intention

@@ -19,4 +19,9 @@ struct LabelMatchConfig {
 const LabelRecord* FindLabel(const std::vector<LabelRecord>& labels, const std::string& source,
                              const msg::SceneObject& object, const LabelMatchConfig& config = {});
 
+/// Edges of similar lengths, similar opinions of perception. What is not known of one of them (no
+/// extent, no opinion) may be as the other's.
+bool LooksAlike(const msg::SceneObject& a, const msg::SceneObject& b,
+                const LabelMatchConfig& config = {});
+
 }  // namespace beckon::intention
