@@ -1,5 +1,7 @@
 #include "services/intention/core/policies.h"
 
+#include <cmath>
+
 #include "services/intention/core/evaluation.h"
 #include "tests/intention/fixtures.h"
 
@@ -131,6 +133,15 @@ ScenarioSession OpenCarton(const Affordances& a) {
           .want_category = a.FindCategory("Carton"),
           .want_rank = 1,
           .want_action = a.FindAction("Open")};
+}
+
+TEST(MakePolicy, RefusesLearningRatesThatAreNone) {
+  const Affordances affordances = TestAffordances();
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    const auto policy = MakePolicy("oain", affordances, QueryFamilies::kAll, bad);
+    ASSERT_FALSE(policy.ok());
+    EXPECT_NE(policy.error().message.find("expected a number above 0"), std::string::npos);
+  }
 }
 
 TEST(OainPolicy, LearnsFasterAtAHigherRate) {

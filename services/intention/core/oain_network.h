@@ -32,7 +32,7 @@ class OainNetwork {
   OainNetwork(const Affordances& affordances, const Situation& situation, const LearntPairs& learnt,
               double lambda = 1);
 
-  /// By exact inference in the whole network, up to 16 actions or 16 objects (FactorGraph); by the
+  /// By exact inference in the whole network, up to 12 actions or 12 objects (FactorGraph); by the
   /// closed form where both are more.
   OainMarginals MaxMarginals() const;
 

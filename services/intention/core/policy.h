@@ -68,8 +68,8 @@ enum class QueryFamilies {
   kAll                // also categories and sets of objects
 };
 
-/// "adaptive", "oain", "count", "random", "random-scene"; fails on other names. `affordances` must
-/// outlive the policy. `lambda`: learning rate of oain, > 0.
+/// "adaptive", "oain", "count", "random", "random-scene"; fails on other names and on a
+/// `lambda`, the learning rate of oain, that is not above 0. `affordances` must outlive the policy.
 Result<std::unique_ptr<Policy>> MakePolicy(const std::string& name, const Affordances& affordances,
                                            QueryFamilies families, double lambda = 1);
 
