@@ -25,12 +25,13 @@ TEST(QuestionText, IsPlainEnglish) {
   const Question mugs = AskYesNo(QuestionKind::kCategory, {kAny, 0b0110, -1});
   EXPECT_EQ(Text(a, s, mugs), "Is it about one of the mugs?");
   EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b0101, -1})),
-            "Is it one of the 2 objects nearest to you?");
+            "Is it one of the two objects nearest to you?");
   EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b1100, -1})),
-            "Is it one of the 2 objects furthest to the left?");
+            "Is it one of the two objects furthest to the left?");
   EXPECT_EQ(Text(a, s, AskYesNo(QuestionKind::kSet, {kAny, 0b1011, -1})),
-            "Is it one of these: the carton, the second mug or the spray can?");
-  EXPECT_EQ(WithArticle(Noun("SprayCan")), "a spray can");
+            "Is it one of the three objects furthest from you?");
+  EXPECT_EQ(ANoun(English(), "SprayCan"), "a spray can");
+  EXPECT_EQ(ANoun(English(), "Apple"), "an apple");
 }
 
 TEST(Question, MeansTheFirstOptionThatHolds) {

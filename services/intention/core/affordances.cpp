@@ -14,6 +14,15 @@ int Find(const std::vector<Named>& sorted, const std::string& name) {
                                                       : -1;
 }
 
+/// Names travel in messages, words stand in sentences.
+constexpr size_t kLongest = 64;
+
+bool IsText(const std::string& text) {
+  return text.size() <= kLongest && std::none_of(text.begin(), text.end(), [](char c) {
+           return (c >= 0 && c < ' ') || c == '{' || c == '}' || c == 127;
+         });
+}
+
 template <typename Named>
 Status SortAndCheck(std::vector<Named>& all, const std::string& what, size_t most) {
   if (all.empty()) return Error{"affordances: expected at least one " + what + ", found none"};
@@ -24,6 +33,11 @@ Status SortAndCheck(std::vector<Named>& all, const std::string& what, size_t mos
   std::sort(all.begin(), all.end(), [](const Named& a, const Named& b) { return a.name < b.name; });
   for (size_t i = 0; i < all.size(); ++i) {
     if (all[i].name.empty()) return Error{"affordances: a " + what + " has no name"};
+    if (!IsText(all[i].name)) {
+      return Error{"affordances: a " + what + " has a name of " +
+                   std::to_string(all[i].name.size()) + " bytes, expected at most " +
+                   std::to_string(kLongest) + " without control characters and braces"};
+    }
     if (i > 0 && all[i].name == all[i - 1].name) {
       return Error{"affordances: " + what + " '" + all[i].name + "' is there twice"};
     }
@@ -39,6 +53,10 @@ Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<E
   for (const Action& action : actions) {
     if (action.words.empty()) {
       return Error{"affordances: action '" + action.name + "' has no words for questions"};
+    }
+    if (!IsText(action.words)) {
+      return Error{"affordances: the words of action '" + action.name + "' must be at most " +
+                   std::to_string(kLongest) + " bytes without control characters and braces"};
     }
   }
   made.actions_ = std::move(actions);

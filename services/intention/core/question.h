@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/intention/core/phrases.h"
 #include "services/intention/core/situation.h"
 
 namespace beckon::intention {
@@ -70,18 +71,29 @@ inline Question AskPair(const Situation& situation, int pair) {
   return AskYesNo(QuestionKind::kFull, PairProposition(situation, pair));
 }
 
-/// The question in plain English: "Open the nearest carton?".
+/// The question as the user reads it: "Open the nearest carton?".
 std::string Text(const Affordances& affordances, const Situation& situation,
-                 const Question& question);
-/// An option of a choice: "Open the carton", "pour from something", "the second mug".
+                 const Question& question, const Phrases& phrases = English());
+/// A question that was asked before: "Once more, to be sure: open the nearest carton?".
+std::string TextAgain(const Affordances& affordances, const Situation& situation,
+                      const Question& question, const Phrases& phrases = English());
+/// An option of a choice: "Open the carton", "Pour from something", "The second mug".
 std::string OptionText(const Affordances& affordances, const Situation& situation,
-                       const Proposition& option);
-/// "the carton", "the nearest mug", "the second mug".
-std::string TheObject(const Affordances& affordances, const Situation& situation, int object);
+                       const Proposition& option, const Phrases& phrases = English());
+/// "the carton", "the nearest mug", "the second mug", in the language's first case.
+std::string TheObject(const Affordances& affordances, const Situation& situation, int object,
+                      const Phrases& phrases = English());
+/// A sentence with {object}: "The second mug has moved."
+std::string ObjectText(const Affordances& affordances, const Situation& situation, int object,
+                       const std::string& sentence, const Phrases& phrases);
 /// "Open the nearest carton".
-std::string TaskText(const Affordances& affordances, const Situation& situation, const Pair& pair);
-/// "SprayCan" -> "spray can"; "a spray can", "an apple".
-std::string Noun(const std::string& category);
-std::string WithArticle(const std::string& noun);
+std::string TaskText(const Affordances& affordances, const Situation& situation, const Pair& pair,
+                     const Phrases& phrases = English());
+/// The same of a task that is remembered without its scene: "Open the carton".
+std::string TaskText(const Affordances& affordances, const std::string& action,
+                     const std::string& category, const Phrases& phrases);
+
+inline std::string Noun(const std::string& category) { return NounOf(English(), category).one; }
+inline std::string WithArticle(const std::string& noun) { return ANoun(English(), noun); }
 
 }  // namespace beckon::intention
