@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "services/intention/affordances_file.h"
+#include "services/intention/phrases_file.h"
 
 namespace beckon::intention {
 
@@ -18,6 +19,9 @@ CommandLine::CommandLine(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--affordances", flags_.affordances,
                  "What can be done with what (default: the one shipped)")
+      ->type_name("FILE");
+  app.add_option("--phrases", flags_.phrases,
+                 "The words of questions (default: the English ones shipped, questions.en.toml)")
       ->type_name("FILE");
   app.add_option("--machine", flags_.machine,
                  "Name of this machine in the history (default: the host name)");
@@ -75,6 +79,7 @@ Result<ServiceConfig> CommandLine::Config() const {
   };
   override_by(config->db, flags_.db);
   override_by(config->affordances, flags_.affordances);
+  override_by(config->phrases, flags_.phrases);
   override_by(config->machine, flags_.machine);
   override_by(config->policy, flags_.policy);
   override_by(config->queries, flags_.queries);
@@ -85,12 +90,7 @@ Result<ServiceConfig> CommandLine::Config() const {
 Status CommandLine::Run() {
   auto config = Config();
   if (!config) return config.error();
-  if (common_.check_config) {
-    if (auto affordances = ReadAffordances(config->affordances); !affordances)
-      return affordances.error();
-    std::printf("configuration and affordances are right\n");
-    return {};
-  }
+  if (common_.check_config) return Check(*config);
   history_.db = config->db;
   if (history_command_->parsed()) return PrintHistory(history_);
   if (export_command_->parsed()) return ExportHistory(history_);
@@ -107,6 +107,17 @@ Status CommandLine::Run() {
     return Evaluate(evaluate_, *affordances);
   }
   return Serve(*config);
+}
+
+Status CommandLine::Check(const ServiceConfig& config) {
+  const auto affordances = ReadAffordances(config.affordances);
+  if (!affordances) return affordances.error();
+  const auto phrases = ReadPhrases(config.phrases);
+  if (!phrases) return phrases.error();
+  for (const std::string& missing : MissingWords(*phrases, *affordances))
+    std::fprintf(stderr, "warning: %s: %s\n", config.phrases.c_str(), missing.c_str());
+  std::printf("configuration, affordances and phrases are right\n");
+  return {};
 }
 
 Status CommandLine::Serve(const ServiceConfig& config) {

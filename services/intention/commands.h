@@ -20,6 +20,7 @@ class CommandLine {
 
  private:
   Result<ServiceConfig> Config() const;
+  static Status Check(const ServiceConfig& config);
   Status Serve(const ServiceConfig& config);
 
   AppOptions common_;

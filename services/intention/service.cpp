@@ -65,6 +65,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
   table.Get("policy", config.policy, {"adaptive", "oain"});
   table.Get("queries", config.queries, {"all", "aof"});
   table.Get("affordances", config.affordances);
+  table.Get("phrases", config.phrases);
   table.Get("machine", config.machine);
   table.Get("task_lifetime_s", config.task_lifetime_s, 1, 3600);
   table.Get("scene_max_age_s", config.scene_max_age_s, 0.1, 3600);
@@ -75,6 +76,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
 void FillDefaults(ServiceConfig& config) {
   if (config.db.empty()) config.db = DefaultDatabase();
   if (config.affordances.empty()) config.affordances = SharedFile("affordances.toml");
+  if (config.phrases.empty()) config.phrases = SharedFile("questions.en.toml");
   if (config.machine.empty()) config.machine = HostName();
 }
 
