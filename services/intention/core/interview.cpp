@@ -94,7 +94,7 @@ void Interview::Recompute() {
   }
   situation_ = MakeSituation(affordances_, things);
   const int doubtful = NextInDoubt();
-  doubtful >= 0 ? AskObject(doubtful) : AskTask();
+  doubtful >= 0 ? AskObject(doubtful, true) : AskTask();
 }
 
 Question Interview::Resolved(Question question) const {
@@ -106,9 +106,10 @@ Question Interview::Resolved(Question question) const {
   return question;
 }
 
-std::unique_ptr<Dialogue> Interview::Replayed(size_t from) const {
+std::unique_ptr<Dialogue> Interview::Replayed(size_t from) {
   auto dialogue =
       policy_.Begin(situation_, input_.history, InterfaceOf(input_.device), input_.seed);
+  prior_ = dialogue->CurrentBelief().posterior;
   for (size_t i = from; i < evidence_.size(); ++i) {
     dialogue->Hear(Resolved(evidence_[i].question), evidence_[i].evidence);
   }
@@ -131,7 +132,7 @@ void Interview::AskTask() {
     outcome_ = TaskQuery(*next, dialogue->CurrentBelief());
     return;
   }
-  if (const int object = NextToRecheck(); object >= 0) return AskObject(object);
+  if (const int object = NextToRecheck(); object >= 0) return AskObject(object, false);
   outcome_ =
       GaveUp{situation_.pairs.empty()
                  ? "I know of nothing to do with the objects on the table. Nothing was done."
@@ -227,10 +228,11 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
   query.expected_questions = belief.expected_questions;
   query.expected_seconds = belief.expected_seconds;
   query.best_posterior = belief.best_posterior;
+  Justify(query, question, belief);
   return query;
 }
 
-void Interview::AskObject(int object) {
+void Interview::AskObject(int object, bool in_doubt) {
   asked_object_ = object;
   msg::Query query;
   query.kind = msg::QueryKind::kWhatIsIt;
@@ -246,6 +248,7 @@ void Interview::AskObject(int object) {
   query.options.push_back({kNoneOfThese, msg::kUnknownCategory, {}, {id}});
   query.n_candidates = situation_.pair_count();
   query.expected_questions = 1;
+  JustifyWhatIsIt(query, in_doubt);
   outcome_ = std::move(query);
 }
 

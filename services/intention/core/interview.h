@@ -117,10 +117,11 @@ class Interview {
   void Refuse(int object, const std::vector<int>& categories);
   void Relabel(int object, int category);
   void AskTask();
-  void AskObject(int object);
+  /// `in_doubt`: before any task, not because every task was refused.
+  void AskObject(int object, bool in_doubt);
   /// A question with its pair looked up in the current situation.
   Question Resolved(Question question) const;
-  std::unique_ptr<Dialogue> Replayed(size_t from) const;
+  std::unique_ptr<Dialogue> Replayed(size_t from);
   int NextInDoubt() const;
   int NextToRecheck() const;
   /// Categories that were not refused for an object, likeliest first, those without a probability
@@ -140,6 +141,9 @@ class Interview {
   std::vector<std::string> ActionNames(const Proposition& proposition) const;
   std::vector<msg::ObjectRef> ObjectRefs(uint64_t objects) const;
   msg::Query TaskQuery(const Question& question, const Belief& belief) const;
+  /// Says why it is asked.
+  void Justify(msg::Query& query, const Question& question, const Belief& belief) const;
+  void JustifyWhatIsIt(msg::Query& query, bool in_doubt) const;
   void Accept(int pair, const Belief& belief);
 
   const Affordances& affordances_;
@@ -153,9 +157,10 @@ class Interview {
   size_t relabelled_at_ = 0;       // evidence_.size() when a label last changed
   bool refused_all_ = false;
   Situation situation_;
-  Question question_;       // behind outcome_, where it is about tasks
-  int asked_object_ = -1;   // behind outcome_, where it is a what-is-it query
-  std::vector<int> offer_;  // its options but the last
+  std::vector<double> prior_;  // by pair, before any answer; empty where the policy has none
+  Question question_;          // behind outcome_, where it is about tasks
+  int asked_object_ = -1;      // behind outcome_, where it is a what-is-it query
+  std::vector<int> offer_;     // its options but the last
   Outcome outcome_;
 };
 
