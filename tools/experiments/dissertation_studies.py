@@ -176,9 +176,8 @@ def learning_rates(lab, report, sessions):
     scenario = lab.write("objects", sessions.as_published("objects"))
     lives = lab.write("random-1", sessions.at_random(1))
     figure, (axis,) = plots.panels(1, width=5.5)
-    shades = (plots.YELLOW, plots.ORANGE, plots.SKY, plots.VERMILION, plots.PURPLE, plots.BLACK)
     rows = []
-    for rate, colour in zip(RATES, shades):
+    for rate, colour in zip(RATES, plots.shades(len(RATES))):
         told = ("--lambda", str(rate))
         runs, mixed = (lab.live(f"learning rate {rate}, {path.stem}", [
             Run(path, "oain", "aof", seed=seed, more=told) for seed in seeds(lab)]) for path in (scenario, lives))
@@ -188,7 +187,7 @@ def learning_rates(lab, report, sessions):
     plots.line(axis, numpy.arange(1, 21), curve([told])[0], label="published, λ = 1", dashed=True)
     plots.count_scale(axis, (1, 2, 3, 5, 8))
     axis.set(xlabel="session", ylabel="questions", xticks=(1, 5, 10, 15, 20))
-    axis.legend()
+    plots.legend_below(figure, axis, 4)
     report.section(
         "Learning rates of the dissertation's network",
         "Policy `oain`, objects and positions changing; f_TT += λ after a session, then the factor is normalised. The "

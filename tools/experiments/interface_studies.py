@@ -9,6 +9,11 @@ from scenarios import FIRST_SEED, KINDS
 from summaries import Errors, mean, mean_over_users, of_sessions
 
 SESSIONS = 200
+SECONDS_TEXT = """\
+Simulated users of all ten habits, {users} of each with {sessions} sessions, seed {seed}. A question takes its seconds
+and those of each answer shown, "none of these" among them; a scan ends with the wanted item. A P300-like device takes
+longer and is wrong in 10 % of its answers, which the policy is not told. The seconds are assumptions; what counts is
+the difference between rows of equal seconds."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +59,7 @@ def interfaces(lab, report):
     spans.append(("oain, yes/no switch", plots.VERMILION, mean_over_users(runs, "seconds")))
     report.section(
         "Seconds a task at other front ends",
-        f"Simulated users of all ten habits, {users} of each with {SESSIONS} sessions, seed {FIRST_SEED + 4}. A question "
-        "takes its seconds and those of each answer shown, \"none of these\" among them; a scan ends with the wanted item. "
-        "A P300-like device takes longer and is wrong in 10 % of its answers, which the policy is not told. The seconds "
-        "are assumptions; what counts is the difference between rows of equal seconds.",
+        SECONDS_TEXT.format(users=users, sessions=SESSIONS, seed=FIRST_SEED + 4),
         table(["", "answers shown", "s a question", "s an answer", "flipped", "**seconds a task**", "first session",
                "questions a task", "wrong"], rows),
         plot_seconds(report, spans))
@@ -67,8 +69,8 @@ def front_end_row(front_end, name, runs):
     outcomes = [outcome for run in runs for outcome in run]
     seconds, half = mean_over_users(runs, "seconds")
     return [name, f"up to {front_end.options}", front_end.question_s, front_end.option_s, f"{100 * front_end.flip:g} %",
-            f"{seconds:.1f} ± {half:.1f}", f"{mean(of_sessions(outcomes, 1, 1), 'seconds'):.1f}", f"{mean(outcomes):.2f}",
-            f"{100 * Errors(runs).wrong_rate():.2f} %"]
+            f"{seconds:.1f} ± {half:.1f}", f"{mean(of_sessions(outcomes, 1, 1), 'seconds'):.1f}",
+            f"{mean(outcomes):.2f}", f"{100 * Errors(runs).wrong_rate():.2f} %"]
 
 
 def plot_seconds(report, spans):

@@ -21,6 +21,11 @@ matplotlib.rcParams.update({
 })
 
 
+def shades(count):
+    """For an ordered series, dark to light; told apart without colour too."""
+    return [pyplot.cm.viridis(0.9 * step / (count - 1)) for step in range(count)]
+
+
 def panels(columns, width=4.2, height=3.4, rows=1, **how):
     figure, axes = pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), squeeze=False, **how)
     return figure, axes.flatten()

@@ -5,6 +5,14 @@ from pathlib import Path
 from published import TARGETS
 
 
+HEAD_TEXT = """\
+Made by `make experiments` (some minutes; `tools/experiments/run --help`): the dissertation's evaluation of the
+intention network, and ours. Nothing here is written by hand; the same sources make the same figures, but for times. The author's
+sessions themselves are not part of this repository.
+
+Measured: {version}, by `{command}`. Lower is better everywhere; intervals and bands are 95 %."""
+
+
 def table(header, rows):
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
@@ -43,10 +51,7 @@ class Report:
         return f"![{alt}]({name}.svg)"
 
     def write(self, version, command):
-        head = ["# Experiments",
-                "Made by `make experiments`: the dissertation's evaluation of the intention network, and ours (some minutes; `tools/experiments/run --help`). Nothing here is written by hand; the same sources make the "
-                "same figures, but for times. The author's sessions themselves are not part of this repository.",
-                f"Measured: {version}, by `{command}`. Lower is better everywhere; intervals and bands are 95 %."]
+        head = ["# Experiments", HEAD_TEXT.format(version=version, command=command)]
         goals = ["## The figures to reach",
                  "\"must\" and \"aim\" are the design's. They will be judged on other groups, users and seeds of the "
                  "same kinds; here groups 1 and 2 stand for them.",
