@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "services/intention/affordances_file.h"
+#include "services/intention/interface_options.h"
 #include "services/intention/phrases_file.h"
 
 namespace beckon::intention {
@@ -51,6 +52,7 @@ CommandLine::CommandLine(CLI::App& app) {
   evaluate_command_->add_option("--lambda", evaluate_.lambda, "Learning rate of oain (default: 1)")
       ->check(CLI::Range(0.001, 1000.0));
   evaluate_command_->add_option("--seed", evaluate_.config.seed, "Of ties and wrong answers");
+  AddInterfaceOptions(*evaluate_command_, evaluate_.config.interface);
   simulate_command_ = AddSimulateCommand(app, simulate_);
 
   history_command_ = app.add_subcommand("history", "Print the sessions of the database");

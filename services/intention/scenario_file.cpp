@@ -97,6 +97,7 @@ ordered_json OutputLine(const ScenarioLine& line, const SessionOutcome& outcome,
   out["user"] = line.session.user;
   out["session"] = session;
   out["questions"] = outcome.questions;
+  out["seconds"] = outcome.seconds;
   out["answered"] = nullptr;
   if (outcome.answered) {
     out["answered"] = {{"category", affordances.categories()[outcome.answered->category].name},
@@ -122,6 +123,7 @@ double NowMicroseconds() {
 struct Totals {
   int sessions = 0;
   int64_t questions = 0;
+  double seconds = 0;
   int wrong = 0;
   int unanswered = 0;
   double compute_us = 0;
@@ -129,13 +131,16 @@ struct Totals {
   void Add(const SessionOutcome& outcome) {
     ++sessions;
     questions += outcome.questions;
+    seconds += outcome.seconds;
     wrong += outcome.answered && !outcome.correct;
     unanswered += !outcome.answered;
     compute_us += outcome.compute_us;
   }
   void Print() const {
-    std::printf("sessions %d, mean questions %.3f, wrong %d, unanswered %d, %.1f us a question\n",
-                sessions, static_cast<double>(questions) / std::max(sessions, 1), wrong, unanswered,
+    const double n = std::max(sessions, 1);
+    std::printf("sessions %d, mean questions %.3f, ", sessions, static_cast<double>(questions) / n);
+    if (seconds != static_cast<double>(questions)) std::printf("mean seconds %.3f, ", seconds / n);
+    std::printf("wrong %d, unanswered %d, %.1f us a question\n", wrong, unanswered,
                 compute_us / static_cast<double>(std::max<int64_t>(questions, 1)));
   }
 };

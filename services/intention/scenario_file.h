@@ -30,8 +30,8 @@ struct EvaluateOptions {
 };
 
 /// The whole of `beckon-intention evaluate`: writes a line a session, {"user", "session",
-/// "questions", "answered", "correct", "posterior", "compute_us"} and the carried keys, and prints
-/// a summary.
+/// "questions", "seconds", "answered", "correct", "posterior", "compute_us"} and the carried keys,
+/// and prints a summary.
 Status Evaluate(const EvaluateOptions& options, const Affordances& affordances);
 
 }  // namespace beckon::intention
