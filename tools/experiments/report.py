@@ -7,8 +7,8 @@ from published import TARGETS
 
 HEAD_TEXT = """\
 Made by `make experiments` (some minutes; `tools/experiments/run --help`): the dissertation's evaluation of the
-intention network, and ours. Nothing here is written by hand; the same sources make the same figures, but for times. The author's
-sessions themselves are not part of this repository.
+intention network, and ours. Nothing here is written by hand; the same sources make the same figures, but for times.
+The author's sessions themselves are not part of this repository.
 
 Measured: {version}, by `{command}`. Lower is better everywhere; intervals and bands are 95 %."""
 

@@ -21,9 +21,9 @@ sessions of what the best questions would need if the user's true preferences an
 the start (`tools/experiments/hindsight.py`): where it is above a target, these users cannot reach it."""
 KINDS_TEXT = """\
 `beckon-intention simulate`, {users} users of each kind with {sessions} sessions, seed {seed}; `--help` tells the
-habits, `services/intention/core/simulated_kinds.cpp` defines them. Tables are random (categories, instances, distances, lateral
-places), about 44 pairs each. The last column: `adaptive` in the last 50 sessions. `new-every-time` cannot be learnt:
-the best tree for 43 equally likely pairs needs 5.88 answers."""
+habits, `services/intention/core/simulated_kinds.cpp` defines them. Tables are random (categories, instances,
+distances, lateral places), about 44 pairs each. The last column: `adaptive` in the last 50 sessions. `new-every-time`
+cannot be learnt: the best tree for 43 equally likely pairs needs 5.88 answers."""
 NOISE_TEXT = """\
 Each answer is flipped with the given probability, which no policy is told. *Wrong*: a task that was not wanted, with
 Wilson's 95 % interval; *unanswered*: sessions that ended without a task. The dissertation's network believes every
