@@ -54,6 +54,7 @@ CommandLine::CommandLine(CLI::App& app) {
   evaluate_command_->add_option("--seed", evaluate_.config.seed, "Of ties and wrong answers");
   AddInterfaceOptions(*evaluate_command_, evaluate_.config.interface);
   simulate_command_ = AddSimulateCommand(app, simulate_);
+  regret_command_ = AddRegretCommand(app, regret_);
 
   history_command_ = app.add_subcommand("history", "Print the sessions of the database");
   history_command_->add_option("--user", history_.user, "Only this user's");
@@ -99,10 +100,11 @@ Status CommandLine::Run() {
   if (import_command_->parsed()) return ImportHistory(history_, config->machine);
   if (forget_command_->parsed())
     return ForgetHistory(history_, config->machine, SystemClock().Now());
-  if (evaluate_command_->parsed() || simulate_command_->parsed()) {
+  if (evaluate_command_->parsed() || simulate_command_->parsed() || regret_command_->parsed()) {
     auto affordances = ReadAffordances(config->affordances);
     if (!affordances) return affordances.error();
     if (simulate_command_->parsed()) return WriteSimulated(simulate_, *affordances);
+    if (regret_command_->parsed()) return MeasureRegret(regret_, *affordances);
     evaluate_.policy = config->policy;
     evaluate_.queries = config->queries;
     if (assume_flip_ >= 0) evaluate_.config.assume_flip = assume_flip_;

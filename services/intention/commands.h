@@ -3,6 +3,7 @@
 
 #include "services/base/app.h"
 #include "services/intention/history_commands.h"
+#include "services/intention/regret_command.h"
 #include "services/intention/scenario_file.h"
 #include "services/intention/service.h"
 #include "services/intention/simulate_command.h"
@@ -28,9 +29,11 @@ class CommandLine {
   EvaluateOptions evaluate_;
   double assume_flip_ = -1;
   SimulateOptions simulate_;
+  RegretOptions regret_;
   HistoryOptions history_;
   CLI::App* evaluate_command_ = nullptr;
   CLI::App* simulate_command_ = nullptr;
+  CLI::App* regret_command_ = nullptr;
   CLI::App* history_command_ = nullptr;
   CLI::App* export_command_ = nullptr;
   CLI::App* import_command_ = nullptr;

@@ -28,6 +28,9 @@ struct Interface {
     return interface;
   }
 
+  /// Whether more than yes/no questions can be asked.
+  bool Choices() const { return kind != InterfaceKind::kYesNo && max_options > 2; }
+
   /// Expected time of a question with `answers` answers of which `said` is given. A scan is over as
   /// soon as the wanted option comes.
   double Seconds(int answers, int said) const {
