@@ -18,7 +18,7 @@ std::unique_ptr<Policy> MakeRandomPolicy(const Affordances& affordances);
 struct AdaptiveConfig {
   QueryFamilies families = QueryFamilies::kAll;
   double accept_posterior =
-      0.995;  // a task needs an accepted full query and this posterior; a margin over 99 %
+      0.998;  // a task needs an accepted full query and this posterior; a margin over 99 %
   double noisy_prior_cap =
       0.9;                // most that a pair may have before the first answer, where input is noisy
   double none_prior = 0;  // that the user wants none of the pairs, where input is noisy

@@ -39,6 +39,13 @@ struct Belief {
   std::vector<double> posterior;  // by pair; empty where the policy has none
 };
 
+/// Whether a dialogue has anything left to ask, and if not, why.
+enum class Ending {
+  kOpen,    // it has
+  kNone,    // none of the candidates is wanted: all were ruled out, or as good as
+  kUnclear  // the answers make no sense: a switch that is stuck, or pure chance
+};
+
 /// One session. Deterministic: the same situation, history, seed and answers give the same
 /// questions.
 class Dialogue {
@@ -51,6 +58,8 @@ class Dialogue {
   virtual void Hear(const Question& question, const Evidence& evidence) = 0;
   /// The accepted candidate: index in Situation::pairs.
   virtual std::optional<int> Accepted() const = 0;
+  /// Why Ask has nothing to ask; kOpen where it has, or a candidate was accepted.
+  virtual Ending End() const = 0;
   virtual Belief CurrentBelief() const = 0;
 };
 

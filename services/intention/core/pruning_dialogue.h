@@ -25,6 +25,9 @@ class PruningDialogue : public Dialogue {
   std::optional<Question> Ask() override;
   void Hear(const Question& question, const Evidence& evidence) override;
   std::optional<int> Accepted() const override { return accepted_; }
+  Ending End() const override {
+    return left_.empty() && !accepted_ ? Ending::kNone : Ending::kOpen;
+  }
   Belief CurrentBelief() const override;
 
  private:
