@@ -100,8 +100,10 @@ Result<ConfigTable> ConfigTable::Parse(const std::string& text, const std::strin
   try {
     file->root = toml::parse(text, name);
   } catch (const toml::parse_error& e) {
-    return Error{name + ":" + std::to_string(e.source().begin.line) +
-                 ": not TOML: " + std::string(e.description())};
+    std::string what(e.description());  // quotes the file, line breaks and all
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
+    return Error{name + ":" + std::to_string(e.source().begin.line) + ": not TOML: " + what};
   }
   return ConfigTable(std::move(file), "");
 }

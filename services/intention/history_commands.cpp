@@ -1,11 +1,12 @@
 #include "services/intention/history_commands.h"
 
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "services/intention/history_text.h"
+#include "services/intention/json_lines.h"
 #include "services/intention/store.h"
 #include "services/intention/store_rows.h"
 
@@ -15,44 +16,37 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Longest line that import reads.
-constexpr size_t kMaxLine = 1'000'000;
-
-std::string LocalTime(Utime utime) {
-  const std::time_t seconds = utime / kSecond;
-  std::tm local{};
-  char text[32] = "";
-  if (localtime_r(&seconds, &local) != nullptr)
-    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local);
-  return text;
-}
-
-HistoryRow ParseRow(const std::string& line) {
-  const json root = json::parse(line);
-  return {
-      root.at("origin").get<std::string>(), root.at("seq").get<int64_t>(),
-      root.at("kind").get<std::string>(),
-      root.at("body").is_string() ? root.at("body").get<std::string>() : root.at("body").dump()};
+Result<HistoryRow> ParseRow(const json& line) {
+  try {
+    HistoryRow row;
+    line.at("origin").get_to(row.origin);
+    const json& seq = line.at("seq");
+    if (!seq.is_number_integer() || seq < 1)
+      return Error{"'seq' must be a whole number from 1, found " + Plain(seq.dump())};
+    seq.get_to(row.seq);
+    line.at("kind").get_to(row.kind);
+    const json& body = line.at("body");
+    row.body = body.is_string() ? body.get<std::string>() : body.dump();
+    if (row.origin.empty() || row.kind.empty()) return Error{"'origin' or 'kind' is empty"};
+    if (const auto head = HeadOf(row.origin, row.seq, row.kind, row.body); !head)
+      return Error{"not a " + Plain(row.kind) + ": " + Plain(head.error().message)};
+    return row;
+  } catch (const json::exception& e) {
+    return Error{"not a row of an export: " + Plain(e.what())};
+  }
 }
 
 Result<std::vector<HistoryRow>> ReadRows(std::istream& in, const std::string& name) {
   std::vector<HistoryRow> rows;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const std::string place = name + ":" + std::to_string(number) + ": ";
-    if (line.size() > kMaxLine) return Error{place + "the line is longer than 1 MB"};
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    try {
-      HistoryRow row = ParseRow(line);
-      if (const auto head = HeadOf(row.origin, row.seq, row.kind, row.body); !head) {
-        return Error{place + head.error().message};
-      }
-      rows.push_back(std::move(row));
-    } catch (const json::exception& e) {
-      return Error{place + "not a row of an export: " + e.what()};
-    }
+  JsonLines lines(in, name);
+  for (;;) {
+    const auto line = lines.Next();
+    if (!line) return line.error();
+    if (!*line) return rows;
+    auto row = ParseRow(**line);
+    if (!row) return lines.At(row.error().message);
+    rows.push_back(*std::move(row));
   }
-  return rows;
 }
 
 }  // namespace
@@ -60,20 +54,15 @@ Result<std::vector<HistoryRow>> ReadRows(std::istream& in, const std::string& na
 Status PrintHistory(const HistoryOptions& options) {
   const auto store = Store::Open(options.db, "", Store::Mode::kRead);
   if (!store) return store.error();
-  const auto sessions = (*store)->AllSessions();
+  auto sessions = (*store)->AllSessions();
   if (!sessions) return sessions.error();
-  if (!options.json)
-    std::printf("%-19s  %-16s  %-28s  %9s  %s\n", "time", "user", "task", "questions", "device");
-  for (const SessionRecord& s : *sessions) {
-    if (!options.user.empty() && s.user != options.user) continue;
-    if (options.json) {
-      std::printf("%s\n", ToBody(s).c_str());
-      continue;
-    }
-    const std::string task = s.action + " " + s.category + " " + std::to_string(s.instance);
-    std::printf("%-19s  %-16s  %-28s  %9d  %s\n", LocalTime(s.utime).c_str(), s.user.c_str(),
-                task.c_str(), s.questions, s.device.c_str());
+  if (!options.user.empty())
+    std::erase_if(*sessions, [&](const SessionRecord& s) { return s.user != options.user; });
+  if (!options.json) {
+    std::fputs(HistoryText(*sessions).c_str(), stdout);
+    return {};
   }
+  for (const SessionRecord& s : *sessions) std::printf("%s\n", ToBody(s).c_str());
   return {};
 }
 
@@ -102,7 +91,7 @@ Status ExportHistory(const HistoryOptions& options) {
 Status ImportHistory(const HistoryOptions& options, const std::string& machine) {
   std::ifstream file;
   if (!options.file.empty()) {
-    file.open(options.file);
+    file.open(options.file, std::ios::binary);
     if (!file) return Error{options.file + ": cannot read the file to import"};
   }
   const std::string name = options.file.empty() ? "standard input" : options.file;
@@ -130,7 +119,7 @@ Status ForgetHistory(const HistoryOptions& options, const std::string& machine, 
   }
   const auto count = (*store)->ForgetUser(options.user, now);
   if (!count) return count.error();
-  std::printf("forgot %d sessions of %s\n", *count, options.user.c_str());
+  std::printf("forgot %d session%s of %s\n", *count, *count == 1 ? "" : "s", options.user.c_str());
   return {};
 }
 

@@ -16,11 +16,12 @@ struct HistoryOptions {
   bool last = false;
 };
 
-/// Prints the sessions as a table, or with `json` as a line each.
+/// Prints the sessions as a table with a summary a user, or with `json` as a line each.
 Status PrintHistory(const HistoryOptions& options);
 /// Writes every row as a JSON line: {"origin", "seq", "kind", "body"}.
 Status ExportHistory(const HistoryOptions& options);
-/// Adds the rows that are not there yet (set union); all or none. Fails with file and line.
+/// Adds the rows that are not there yet (set union); all or none, in one transaction. Fails with
+/// file and line.
 Status ImportHistory(const HistoryOptions& options, const std::string& machine);
 /// Forgets a user, or the last session.
 Status ForgetHistory(const HistoryOptions& options, const std::string& machine, Utime now);

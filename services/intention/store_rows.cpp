@@ -1,6 +1,8 @@
 #include "services/intention/store_rows.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace beckon::intention {
@@ -20,6 +22,23 @@ QuestionKind KindNamed(const std::string& name) {
   return QuestionKind::kFull;
 }
 
+/// Bounds of what a row may say: an import comes from anywhere.
+constexpr int kMostAnswers = 100'000;
+constexpr Utime kMostUtime = 253'402'300'800 * kSecond;  // the year 9999
+
+int64_t NeedInteger(const json& body, const char* key, int64_t least, int64_t most) {
+  const json& value = body.at(key);
+  if (!value.is_number_integer() || value < least || value > most) {
+    throw json::other_error::create(501,
+                                    std::string("'") + key + "' must be a whole number from " +
+                                        std::to_string(least) + " to " + std::to_string(most),
+                                    &body);
+  }
+  return value.get<int64_t>();
+}
+
+bool IsLikelihood(double value) { return value >= 0 && std::isfinite(value); }
+
 /// Older rows know only yes and no, and only the device that asked for the session.
 AnswerRecord AnswerFrom(const json& body, const std::string& session_device) {
   AnswerRecord answer;
@@ -31,10 +50,12 @@ AnswerRecord AnswerFrom(const json& body, const std::string& session_device) {
     return answer;
   }
   body.at("likelihoods").get_to(answer.likelihoods);
-  body.at("meant").get_to(answer.meant);
+  answer.meant = static_cast<int>(NeedInteger(body, "meant", 0, kMaxThings));
   body.at("device").get_to(answer.device);
-  const bool right = answer.likelihoods.size() >= 2 && answer.meant >= 0 &&
-                     answer.meant < static_cast<int>(answer.likelihoods.size());
+  const auto& likelihoods = answer.likelihoods;
+  const bool right = likelihoods.size() >= 2 && likelihoods.size() <= kMaxThings + 1 &&
+                     answer.meant < static_cast<int>(likelihoods.size()) &&
+                     std::all_of(likelihoods.begin(), likelihoods.end(), IsLikelihood);
   if (!right)
     throw json::other_error::create(501, "an answer of at least two likelihoods and the meant one",
                                     &body);
@@ -107,13 +128,18 @@ Result<SessionRecord> SessionFromBody(const std::string& body) {
     root.at("session_id").get_to(session.session_id);
     root.at("user").get_to(session.user);
     root.at("device").get_to(session.device);
-    root.at("utime").get_to(session.utime);
+    session.utime = NeedInteger(root, "utime", 0, kMostUtime);
     root.at("category").get_to(session.category);
     root.at("action").get_to(session.action);
-    root.at("instance").get_to(session.instance);
-    root.at("questions").get_to(session.questions);
+    session.instance = static_cast<int>(NeedInteger(root, "instance", 1, kMaxThings));
+    session.questions = static_cast<int>(NeedInteger(root, "questions", 0, kMostAnswers));
     root.at("posterior").get_to(session.posterior);
-    if (root.contains("present")) root.at("present").get_to(session.present);
+    if (const auto present = root.find("present"); present != root.end()) {
+      for (const auto& [name, count] : present->items()) {
+        session.present[name] =
+            static_cast<int>(NeedInteger(*present, name.c_str(), 0, kMaxThings));
+      }
+    }
     for (const json& a : root.at("answers"))
       session.answers.push_back(AnswerFrom(a, session.device));
     return session;
@@ -126,7 +152,7 @@ Result<LabelRecord> LabelFromBody(const std::string& body) {
     root.at("label_id").get_to(label.id);
     root.at("session_id").get_to(label.session_id);
     root.at("user").get_to(label.user);
-    root.at("utime").get_to(label.utime);
+    label.utime = NeedInteger(root, "utime", 0, kMostUtime);
     root.at("category").get_to(label.category);
     root.at("source").get_to(label.source);
     label.centroid_W = ToVector(root.at("position_W"));

@@ -72,6 +72,53 @@ constexpr std::array<const char*, kSchemaVersion> kSteps = {
       CREATE VIEW counts AS
         SELECT user, category, action, COUNT(*) AS n, SUM(questions) AS questions, MAX(utime) AS last_utime
         FROM sessions GROUP BY user, category, action;
+    )sql",
+    // 3: counts by instance; answers of both forms (until then: yes, no, meant_yes, and the
+    // session's device) and how often each device was wrong; nothing is ever changed.
+    R"sql(
+      DROP VIEW counts;
+      CREATE VIEW counts AS
+        SELECT user, category, action, instance, COUNT(*) AS n, SUM(questions) AS questions,
+          MAX(utime) AS last_utime
+        FROM sessions GROUP BY user, category, action, instance;
+      CREATE VIEW answers AS
+        SELECT user, session_id, utime, position, device, kind, n_answers, meant,
+          CASE WHEN likelihoods IS NULL THEN NOT first_is_likelier
+            WHEN n_likeliest = 1 THEN likeliest ELSE n_answers - 1 END AS said
+        FROM (
+          SELECT s.user, s.session_id, s.utime, a.key AS position,
+            COALESCE(json_extract(a.value, '$.device'), s.device) AS device,
+            json_extract(a.value, '$.kind') AS kind,
+            COALESCE(json_array_length(a.value, '$.likelihoods'), 2) AS n_answers,
+            COALESCE(json_extract(a.value, '$.meant'), NOT json_extract(a.value, '$.meant_yes')) AS meant,
+            json_extract(a.value, '$.likelihoods') AS likelihoods,
+            json_extract(a.value, '$.yes') > json_extract(a.value, '$.no') AS first_is_likelier,
+            (SELECT COUNT(*) FROM json_each(a.value, '$.likelihoods') WHERE value =
+              (SELECT MAX(value) FROM json_each(a.value, '$.likelihoods'))) AS n_likeliest,
+            (SELECT MIN(key) FROM json_each(a.value, '$.likelihoods') WHERE value =
+              (SELECT MAX(value) FROM json_each(a.value, '$.likelihoods'))) AS likeliest
+          FROM sessions s, json_each(s.body, '$.answers') a);
+      CREATE VIEW error_counts AS
+        SELECT user, device,
+          SUM(n_answers = 2 AND meant = 0 AND said = 0) AS meant_yes_said_yes,
+          SUM(n_answers = 2 AND meant = 0 AND said = 1) AS meant_yes_said_no,
+          SUM(n_answers = 2 AND meant = 1 AND said = 0) AS meant_no_said_yes,
+          SUM(n_answers = 2 AND meant = 1 AND said = 1) AS meant_no_said_no,
+          SUM(n_answers > 2 AND meant = said) AS chose_right,
+          SUM(n_answers > 2 AND meant <> said) AS chose_wrong
+        FROM answers GROUP BY user, device;
+      CREATE TRIGGER tasks_are_never_changed BEFORE UPDATE ON tasks
+        BEGIN SELECT RAISE(ABORT, 'tasks are append-only'); END;
+      CREATE TRIGGER tasks_are_never_deleted BEFORE DELETE ON tasks
+        BEGIN SELECT RAISE(ABORT, 'tasks are append-only'); END;
+      CREATE TRIGGER task_states_are_never_changed BEFORE UPDATE ON task_states
+        BEGIN SELECT RAISE(ABORT, 'task states are append-only'); END;
+      CREATE TRIGGER task_states_are_never_deleted BEFORE DELETE ON task_states
+        BEGIN SELECT RAISE(ABORT, 'task states are append-only'); END;
+      CREATE TRIGGER stops_are_never_changed BEFORE UPDATE ON stops
+        BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
+      CREATE TRIGGER stops_are_never_deleted BEFORE DELETE ON stops
+        BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
     )sql"};
 
 int PragmaValue(SQLite::Database& database, const char* pragma) {

@@ -13,7 +13,7 @@ class Exception;
 namespace beckon::intention {
 
 /// PRAGMA user_version of a database of this program.
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 /// PRAGMA application_id: "BCKN".
 inline constexpr int kApplicationId = 0x42434B4E;
 

@@ -211,6 +211,117 @@ TEST_F(StoreTest, HistoryIsAppendOnly) {
       1);
 }
 
+TEST_F(StoreTest, EveryTableIsAppendOnly) {
+  const auto store = Open();
+  Commit(*store, Session("s1"));
+  ASSERT_TRUE(store->NoteTask("s1", msg::TaskState::kDone, 1).ok());
+  ASSERT_TRUE(store->SetStopped(true, 1).ok());
+  SQLite::Database raw(path, SQLite::OPEN_READWRITE);
+  SQLite::Statement tables(raw, "SELECT name FROM sqlite_master WHERE type = 'table'");
+  int found = 0;
+  while (tables.executeStep()) {
+    const std::string name = tables.getColumn(0).getString();
+    SCOPED_TRACE(name);
+    ++found;
+    EXPECT_THROW(raw.exec("DELETE FROM " + name), SQLite::Exception);
+    EXPECT_THROW(raw.exec("UPDATE " + name + " SET rowid = rowid"), SQLite::Exception);
+  }
+  EXPECT_EQ(found, 4);
+}
+
+TEST_F(StoreTest, CountsAreViews) {
+  const auto store = Open();
+  SessionRecord session = Session("s1");
+  session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch"},  // no, rightly
+                     {QuestionKind::kAction, {1, 0}, 1, "switch"},  // yes, wrongly
+                     {QuestionKind::kFull, {0.9, 0.1}, 0, "speech"},
+                     {QuestionKind::kFull, {0.5, 0.5}, 0, "speech"},  // undecided: taken as no
+                     {QuestionKind::kChoice, {0.2, 0.7, 0.1}, 1, "page"},
+                     {QuestionKind::kChoice, {0.4, 0.4, 0.2}, 1, "page"}};  // undecided: none
+  Commit(*store, session);
+  session.session_id = "s2";
+  session.instance = 2;
+  session.answers.clear();
+  Commit(*store, session);
+  Commit(*store, Session("s3"));
+  Commit(*store, Session("s4", "bob"));
+  SQLite::Database raw(path);
+  const auto value = [&](const std::string& sql) { return raw.execAndGet(sql).getInt(); };
+  EXPECT_EQ(value("SELECT n FROM counts WHERE user = 'ann' AND instance = 1"), 2);
+  EXPECT_EQ(value("SELECT n FROM counts WHERE user = 'ann' AND instance = 2"), 1);
+  const std::string ann = " FROM error_counts WHERE user = 'ann' AND device = ";
+  EXPECT_EQ(value("SELECT meant_no_said_no" + ann + "'switch'"), 2);
+  EXPECT_EQ(value("SELECT meant_no_said_yes" + ann + "'switch'"), 1);
+  EXPECT_EQ(value("SELECT meant_yes_said_yes" + ann + "'speech'"), 2);
+  EXPECT_EQ(value("SELECT meant_yes_said_no" + ann + "'speech'"), 1);
+  EXPECT_EQ(value("SELECT chose_right" + ann + "'page'"), 1);
+  EXPECT_EQ(value("SELECT chose_wrong" + ann + "'page'"), 1);
+  // As the policies count.
+  const auto history = ToHistory(*store->SessionsOf("ann"),
+                                 *Affordances::Make({{"Open", "open"}}, {{"Carton", {"Open"}}}));
+  AnswerCounts page, speech;
+  for (const PastSession& past : history) {
+    for (const auto& [device, counts] : past.answers) {
+      if (device == "page")
+        page.chose_right += counts.chose_right, page.chose_wrong += counts.chose_wrong;
+      if (device == "speech") speech.meant_yes_said_no += counts.meant_yes_said_no;
+    }
+  }
+  EXPECT_EQ(page.chose_right, 1);
+  EXPECT_EQ(page.chose_wrong, 1);
+  EXPECT_EQ(speech.meant_yes_said_no, 1);
+}
+
+TEST_F(StoreTest, RefusesRowsOfAbsurdValues) {
+  const auto store = Open();
+  Commit(*store, Session("s1"));
+  const std::string good = store->Rows()->front().body;
+  for (const auto& [from, to] : std::map<std::string, std::string>{
+           {"\"instance\":1", "\"instance\":1000000000"},
+           {"\"questions\":2", "\"questions\":-1"},
+           {"\"utime\":1000", "\"utime\":1e300"},
+           {"\"Mug\":2", "\"Mug\":-2"},
+           {"\"meant\":1", "\"meant\":2"},
+           {"\"likelihoods\":[0.0,1.0]", "\"likelihoods\":[0.0,-1.0]"},
+           {"\"likelihoods\":[0.0,1.0]", "\"likelihoods\":[1.0]"},
+           {"\"session_id\":\"s1\"", "\"session_id\":7"}}) {
+    std::string body = good;
+    ASSERT_NE(body.find(from), std::string::npos) << from << " in " << body;
+    body.replace(body.find(from), from.size(), to);
+    EXPECT_FALSE(store->AddRows({{"x", 1, "session", body}}).ok()) << to;
+  }
+  EXPECT_EQ(*store->RowCount(), 1);
+}
+
+TEST_F(StoreTest, MergedBothWaysTwoDatabasesAreEqual) {
+  const auto a = Open(folder / "a.db", "kitchen");
+  const auto b = Open(folder / "b.db", "bedroom");
+  for (int i = 0; i < 20; ++i) {
+    Store& store = i % 3 == 0 ? *b : *a;
+    const std::string user = i % 2 == 0 ? "ann" : "bob";
+    Commit(store, Session("s" + std::to_string(i), user, 1000 * (20 - i)));
+    if (i == 9) {
+      ASSERT_TRUE(b->AddRows(*a->Rows()).ok());
+      ASSERT_TRUE(b->ForgetUser("ann", 5).ok());
+    }
+    if (i == 14) ASSERT_TRUE(a->ForgetLast("bob", 6).ok());
+  }
+  ASSERT_TRUE(a->AddRows(*b->Rows()).ok());
+  ASSERT_TRUE(b->AddRows(*a->Rows()).ok());
+  const auto content = [](Store& store) {
+    std::string text;
+    const auto rows = *store.Rows();
+    for (const HistoryRow& row : rows)
+      text += row.origin + " " + std::to_string(row.seq) + " " + row.kind + " " + row.body + "\n";
+    text += "--\n";
+    const auto sessions = *store.AllSessions();
+    for (const SessionRecord& session : sessions) text += session.session_id + "\n";
+    return text;
+  };
+  EXPECT_EQ(content(*a), content(*b));
+  EXPECT_EQ(*a->AddRows(*b->Rows()), 0);
+}
+
 TEST_F(StoreTest, LosesNothingItAcknowledgedWhenKilled) {
   // Each child commits until it is killed, and says on a pipe what it was promised.
   std::set<std::string> acknowledged;
@@ -420,6 +531,61 @@ TEST_F(StoreTest, OpensTheFilesOfTheFirstVersion) {
   EXPECT_EQ(store->SessionsOf("ann")->front().action, "Drink");
   EXPECT_FALSE(*store->Stopped());
   EXPECT_EQ(SQLite::Database(path).execAndGet("PRAGMA user_version").getInt(), kSchemaVersion);
+}
+
+TEST_F(StoreTest, OpensTheFilesOfTheSecondVersion) {
+  // Written as version 2 wrote it, with answers of its form and of the next; keep this text as it
+  // is.
+  std::filesystem::create_directories(folder / "sub");
+  {
+    SQLite::Database old(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    old.exec(R"sql(
+      CREATE TABLE rows (origin TEXT NOT NULL, seq INTEGER NOT NULL, kind TEXT NOT NULL,
+        uid TEXT NOT NULL UNIQUE, user TEXT NOT NULL, utime INTEGER NOT NULL,
+        body TEXT NOT NULL CHECK (json_valid(body)), PRIMARY KEY (origin, seq));
+      CREATE TABLE tasks (task_id TEXT PRIMARY KEY, encoded BLOB NOT NULL);
+      CREATE TABLE task_states (task_id TEXT NOT NULL, state INTEGER NOT NULL, utime INTEGER NOT NULL);
+      CREATE TABLE stops (utime INTEGER NOT NULL, stopped INTEGER NOT NULL);
+      CREATE VIEW forgets AS
+        SELECT json_extract(body, '$.session_id') AS session_id, json_extract(body, '$.user') AS user,
+          json_extract(body, '$.covers') AS covers FROM rows WHERE kind = 'forget';
+      CREATE VIEW sessions AS
+        SELECT origin, seq, user, utime, body, substr(uid, length('session/') + 1) AS session_id,
+          json_extract(body, '$.category') AS category, json_extract(body, '$.action') AS action,
+          json_extract(body, '$.instance') AS instance, json_extract(body, '$.questions') AS questions,
+          json_extract(body, '$.device') AS device
+        FROM rows r WHERE kind = 'session'
+          AND NOT EXISTS (SELECT 1 FROM forgets f WHERE r.uid = 'session/' || f.session_id)
+          AND NOT EXISTS (SELECT 1 FROM forgets f, json_each(f.covers) c
+            WHERE f.user = r.user AND c.key = r.origin AND c.value >= r.seq);
+      CREATE VIEW counts AS SELECT user, category, action, COUNT(*) AS n FROM sessions GROUP BY user, category, action;
+      INSERT INTO rows VALUES ('attic', 1, 'session', 'session/old', 'ann', 5,
+        '{"session_id":"old","user":"ann","device":"console","utime":5,"category":"Mug","action":"Drink","instance":1,"questions":4,"posterior":1.0,"answers":[{"kind":"action","yes":1.0,"no":0.0,"meant_yes":true},{"kind":"object","yes":1.0,"no":0.0,"meant_yes":false},{"kind":"set","yes":0.0,"no":1.0,"meant_yes":false},{"kind":"full","yes":1.0,"no":0.0,"meant_yes":true}]}');
+      INSERT INTO rows VALUES ('attic', 2, 'session', 'session/newer', 'ann', 6,
+        '{"session_id":"newer","user":"ann","device":"console","utime":6,"category":"Mug","action":"Drink","instance":1,"questions":1,"posterior":1.0,"present":{"Mug":2},"answers":[{"kind":"full","likelihoods":[1.0,0.0],"meant":0,"device":"console"}]}');
+      INSERT INTO stops VALUES (7, 1);
+      PRAGMA application_id = 1111706446;
+      PRAGMA user_version = 2;
+    )sql");
+  }
+  EXPECT_NE(Refusal(Store::Mode::kRead).find("older version"), std::string::npos);
+  const auto store = Open();
+  const auto sessions = store->SessionsOf("ann");
+  ASSERT_EQ(sessions->size(), 2u);
+  ASSERT_EQ(sessions->front().answers.size(), 4u);
+  EXPECT_EQ(sessions->front().answers[1].meant, 1);
+  EXPECT_EQ(sessions->front().answers[1].device, "console");
+  EXPECT_TRUE(*store->Stopped());
+  SQLite::Database raw(path);
+  const auto value = [&](const std::string& column) {
+    return raw.execAndGet("SELECT " + column + " FROM error_counts WHERE user = 'ann'").getInt();
+  };
+  EXPECT_EQ(value("meant_yes_said_yes"), 3);
+  EXPECT_EQ(value("meant_no_said_yes"), 1);
+  EXPECT_EQ(value("meant_no_said_no"), 1);
+  EXPECT_EQ(value("meant_yes_said_no"), 0);
+  EXPECT_EQ(raw.execAndGet("SELECT n FROM counts WHERE instance = 1").getInt(), 2);
+  EXPECT_EQ(raw.execAndGet("PRAGMA user_version").getInt(), kSchemaVersion);
 }
 
 TEST_F(StoreTest, WritesDurably) {

@@ -1,0 +1,18 @@
+// The history as people read it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/intention/core/memory.h"
+
+namespace beckon::intention {
+
+/// A line a session (time, user, task, questions, device), then a line a user: how many questions
+/// the first ten sessions took, how many the last ten, and a small plot.
+std::string HistoryText(const std::vector<SessionRecord>& sessions);
+
+/// "2026-11-22 23:10:05", in the machine's time zone.
+std::string LocalTime(Utime utime);
+
+}  // namespace beckon::intention
