@@ -125,7 +125,7 @@ class Study {
       const PolicyCost cost =
           CostOf(situation, prior, interface, [&](const std::vector<double>& posterior) {
             const auto choice =
-                ChooseQuestion(situation, posterior, {}, families, kAcceptPosterior);
+                ChooseQuestion(situation, posterior, interface, {}, families, kAcceptPosterior);
             return choice ? std::optional(choice->question) : std::nullopt;
           });
       // A code's word costs what its questions do where yes and no take the same time.

@@ -33,6 +33,7 @@ class AdaptiveDialogue : public Dialogue {
                    std::vector<double> prior, const Interface& interface)
       : config_(config),
         situation_(situation),
+        interface_(interface),
         errors_(interface.errors),
         interface_(interface),
         noisy_(errors_.noisy()),
@@ -51,7 +52,7 @@ class AdaptiveDialogue : public Dialogue {
   std::optional<Question> Ask() override {
     if (!choice_) {
       if (ending_ != Ending::kOpen) return std::nullopt;
-      choice_ = ChooseQuestion(situation_, posterior_, MeanRates(), config_.families,
+      choice_ = ChooseQuestion(situation_, posterior_, interface_, MeanRates(), config_.families,
                                config_.accept_posterior);
       if (choice_ && noisy_ && interface_.kind == InterfaceKind::kYesNo) {
         if (const int best = Likeliest(); posterior_[best] > kAskFor)
@@ -97,7 +98,7 @@ class AdaptiveDialogue : public Dialogue {
       }
     }
     belief.expected_questions = choice_ && !Accepted() ? choice_->expected_questions : 0;
-    belief.expected_seconds = belief.expected_questions;
+    belief.expected_seconds = choice_ && !Accepted() ? choice_->expected_seconds : 0;
     belief.posterior = posterior_;
     return belief;
   }
@@ -180,6 +181,7 @@ class AdaptiveDialogue : public Dialogue {
 
   const AdaptiveConfig config_;
   const Situation& situation_;
+  const Interface interface_;
   const ErrorModel errors_;
   const Interface interface_;
   const bool noisy_;
