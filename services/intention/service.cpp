@@ -14,6 +14,7 @@
 #include "services/intention/affordances_file.h"
 #include "services/intention/core/conversation.h"
 #include "services/intention/core/policies.h"
+#include "services/intention/phrases_file.h"
 #include "services/intention/store.h"
 
 namespace beckon::intention {
@@ -50,8 +51,9 @@ std::unique_ptr<Policy> PolicyOf(const ServiceConfig& config, const Affordances&
   return MakeAdaptivePolicy(adaptive);
 }
 
-ConversationConfig ConversationConfigOf(const ServiceConfig& config) {
+ConversationConfig ConversationConfigOf(const ServiceConfig& config, Phrases phrases) {
   ConversationConfig conversation;
+  conversation.phrases = std::move(phrases);
   conversation.task_lifetime = static_cast<Utime>(config.task_lifetime_s * kSecond);
   conversation.scene_max_age = static_cast<Utime>(config.scene_max_age_s * kSecond);
   return conversation;
@@ -81,12 +83,13 @@ void FillDefaults(ServiceConfig& config) {
 }
 
 struct Service::State {
-  State(const ServiceConfig& config, Affordances known, std::unique_ptr<Store> opened, Bus& the_bus,
-        RunLoop& the_loop, const Clock& the_clock)
+  State(const ServiceConfig& config, Affordances known, Phrases phrases,
+        std::unique_ptr<Store> opened, Bus& the_bus, RunLoop& the_loop, const Clock& the_clock)
       : affordances(std::move(known)),
         policy(PolicyOf(config, affordances)),
         store(std::move(opened)),
-        conversation(affordances, *policy, *store, ConversationConfigOf(config)),
+        conversation(affordances, *policy, *store,
+                     ConversationConfigOf(config, std::move(phrases))),
         sender(config.machine + "/intention"),
         bus(the_bus),
         loop(the_loop),
@@ -191,10 +194,12 @@ Result<std::unique_ptr<Service>> Service::Start(const ServiceConfig& config, Bus
                                                 RunLoop& loop, const Clock& clock) {
   auto affordances = ReadAffordances(config.affordances);
   if (!affordances) return affordances.error();
+  auto phrases = config.phrases.empty() ? English() : ReadPhrases(config.phrases);
+  if (!phrases) return phrases.error();
   auto store = Store::Open(config.db, config.machine);
   if (!store) return store.error();
-  auto state =
-      std::make_unique<State>(config, *std::move(affordances), *std::move(store), bus, loop, clock);
+  auto state = std::make_unique<State>(config, *std::move(affordances), *std::move(phrases),
+                                       *std::move(store), bus, loop, clock);
   state->Subscribe();
   return std::unique_ptr<Service>(new Service(std::move(state)));
 }

@@ -147,7 +147,7 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
     return Taken();
   }
   if (request.kind == Kind::kRequestCancel) {
-    Abandon(*talk, "Cancelled.", now, false);
+    Abandon(*talk, Finished(config_.phrases.cancelled), now, false);
     return Taken();
   }
   if (!talk->interview || Seen(request)) return Taken();

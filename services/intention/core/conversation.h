@@ -30,6 +30,7 @@ struct ConversationConfig {
   double pose_place_m = 0.10;         // most between a pose and the object it is for
   int max_sessions = 16;              // users at a time
   LabelMatchConfig labels;
+  Phrases phrases = English();
 };
 
 /// A message that was well formed but wrong.
@@ -109,6 +110,7 @@ class Conversation {
   void Announce(const msg::Session& event, Utime now);
   void AnnounceRunning(Talk& talk, Utime now);
   msg::Session Event(msg::SessionKind kind, Utime now) const;
+  std::string DoneText(const std::string& task) const;
   void Refuse(const std::string& channel, const std::string& detail);
   void MatchPoses(Talk& talk) const;
   Actions Taken();

@@ -33,7 +33,8 @@ Actions Conversation::Recover(Utime now) {
       latest_.session_id = task.task_id;
       latest_.user = task.user;
       latest_.questions = task.questions;
-      latest_.text = task.action + " " + task.object.category + ".";
+      latest_.text =
+          DoneText(TaskText(affordances_, task.action, task.object.category, config_.phrases));
     }
   }
   if (stopped_) {
@@ -63,7 +64,8 @@ void Conversation::Start(const msg::Session& request, Utime now) {
     confirmed.session_id = request.session_id;
     confirmed.user = (*known)->user;
     confirmed.questions = (*known)->questions;
-    confirmed.text = (*known)->action + " " + (*known)->category + ".";
+    confirmed.text =
+        DoneText(TaskText(affordances_, (*known)->action, (*known)->category, config_.phrases));
     actions_.push_back(confirmed);
     return;
   }
@@ -84,7 +86,7 @@ void Conversation::TryBegin(Talk& talk, Utime now) {
   if (!talk.scene && !TakeScene(talk, now)) return;
   // Poses of its frame or of a later one: pose may skip scenes.
   if (poses_.utime < talk.scene->utime && now < talk.ask_by)
-    return WaitFor(talk, "Waiting for the objects' poses.", now);
+    return WaitFor(talk, Finished(config_.phrases.waiting_for_poses), now);
   talk.waits_for.clear();
   talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk));
   AnnounceRunning(talk, now);
@@ -100,11 +102,11 @@ void Conversation::WaitFor(Talk& talk, const std::string& what, Utime now) {
 bool Conversation::TakeScene(Talk& talk, Utime now) {
   std::string missing;
   if (!scene_ || now - scene_arrived_ > config_.scene_max_age) {
-    missing = "Waiting for a picture of the table.";
+    missing = Finished(config_.phrases.waiting_for_picture);
   } else if (!scene_->has_table) {
-    missing = "Waiting until the table is in view.";
+    missing = Finished(config_.phrases.waiting_for_table);
   } else if (scene_->objects.empty()) {
-    missing = "Waiting for objects on the table.";
+    missing = Finished(config_.phrases.waiting_for_objects);
   }
   if (!missing.empty()) {
     WaitFor(talk, missing, now);
@@ -146,6 +148,7 @@ InterviewInput Conversation::InputOf(const Talk& talk) {
   input.scene = *talk.scene;
   input.device = talk.device;
   input.devices = devices_;
+  input.phrases = config_.phrases;
   input.seed = Hash(talk.session_id);
   return input;
 }

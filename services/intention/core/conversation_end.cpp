@@ -69,7 +69,8 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   const auto committed = memory_.Commit(record, LabelsOf(talk, now), task);
   if (!committed) {
     return Abandon(talk,
-                   "It could not be remembered, so nothing was done: " + committed.error().message,
+                   Finished(Fill(config_.phrases, config_.phrases.not_remembered, "reason",
+                                 committed.error().message)),
                    now, false);
   }
   if (*committed) {
@@ -82,9 +83,13 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   event.session_id = record.session_id;
   event.user = record.user;
   event.questions = record.questions;
-  event.text = accepted.text + ".";
+  event.text = DoneText(accepted.text);
   Announce(event, now);
   End(talk.user);
+}
+
+std::string Conversation::DoneText(const std::string& task) const {
+  return Finished(Fill(config_.phrases, config_.phrases.done, "task", task));
 }
 
 void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels) {
@@ -116,7 +121,7 @@ void Conversation::Stop(const msg::Session& request, Utime now) {
   msg::Session event = Event(msg::SessionKind::kStopped, now);
   event.session_id = request.session_id;
   event.user = request.user;
-  event.text = "Stopped. Only \"resume\" leads on.";
+  event.text = Finished(config_.phrases.stopped);
   Announce(event, now);
   talks_.clear();
   if (Status set = memory_.SetStopped(true, now); !set)
@@ -127,7 +132,7 @@ void Conversation::Stop(const msg::Session& request, Utime now) {
 void Conversation::RevokeTasks(Utime now) {
   for (const auto& [id, pending] : tasks_) {
     actions_.push_back(
-        msg::TaskStatus{now, id, msg::TaskState::kRevoked, "The user stopped everything.", {}});
+        msg::TaskStatus{now, id, msg::TaskState::kRevoked, Finished(config_.phrases.revoked), {}});
     if (Status noted = memory_.NoteTask(id, msg::TaskState::kRevoked, now); !noted) {
       Refuse(kSessionChannel, noted.error().message);
     }
@@ -160,7 +165,7 @@ void Conversation::RepeatTasks(Utime now) {
     if (pending.task.expires_utime <= now) {
       ++counters_.expired;
       actions_.push_back(msg::TaskStatus{
-          now, id, msg::TaskState::kExpired, "No robot took the task in time.", {}});
+          now, id, msg::TaskState::kExpired, Finished(config_.phrases.no_robot), {}});
       if (Status noted = memory_.NoteTask(id, msg::TaskState::kExpired, now); !noted) {
         Refuse(kTaskStatusChannel, noted.error().message);
       }

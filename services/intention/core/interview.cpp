@@ -7,12 +7,6 @@
 #include "services/intention/core/answer_errors.h"
 
 namespace beckon::intention {
-namespace {
-
-constexpr char kNoneOfThese[] = "None of these";
-
-}  // namespace
-
 Interview::Interview(const Affordances& affordances, const Policy& policy, InterviewInput input)
     : affordances_(affordances), policy_(policy), input_(std::move(input)) {
   Recompute();
@@ -133,10 +127,8 @@ void Interview::AskTask() {
     return;
   }
   if (const int object = NextToRecheck(); object >= 0) return AskObject(object, false);
-  outcome_ =
-      GaveUp{situation_.pairs.empty()
-                 ? "I know of nothing to do with the objects on the table. Nothing was done."
-                 : "It is none of the tasks that I know for these objects. Nothing was done."};
+  outcome_ = GaveUp{Finished(situation_.pairs.empty() ? input_.phrases.nothing_to_do
+                                                      : input_.phrases.none_of_the_tasks)};
 }
 
 void Interview::Accept(int pair, const Belief& belief) {
@@ -147,7 +139,7 @@ void Interview::Accept(int pair, const Belief& belief) {
                           affordances_.actions()[wanted.action].name,
                           instance.rank,
                           belief.best_pair == pair ? belief.best_posterior : 1,
-                          TaskText(affordances_, situation_, wanted)};
+                          TaskText(affordances_, situation_, wanted, input_.phrases)};
 }
 
 msg::ObjectRef Interview::Ref(int object) const {
@@ -160,7 +152,7 @@ msg::ObjectRef Interview::Ref(int object) const {
 
 msg::Option Interview::OptionOf(const Proposition& option) const {
   msg::Option shown;
-  shown.text = OptionText(affordances_, situation_, option);
+  shown.text = OptionText(affordances_, situation_, option, input_.phrases);
   shown.actions = ActionNames(option);
   for (const msg::ObjectRef& object : ObjectRefs(option.objects))
     shown.objects.push_back(object.object_id);
@@ -207,7 +199,9 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
       query.kind = msg::QueryKind::kChoice;
       break;
   }
-  query.text = Text(affordances_, situation_, question);
+  const bool again = std::any_of(evidence_.begin(), evidence_.end(),
+                                 [&](const Heard& heard) { return heard.question == question; });
+  query.text = (again ? TextAgain : Text)(affordances_, situation_, question, input_.phrases);
   if (question.kind == QuestionKind::kChoice) {
     uint64_t named = 0;
     for (const Proposition& option : question.options) {
@@ -215,14 +209,14 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
       if (option.objects != kAny) named |= option.objects;
     }
     query.objects = ObjectRefs(named);
-    query.options.push_back({.text = kNoneOfThese});
+    query.options.push_back({.text = Finished(input_.phrases.none_of_these)});
   } else {
     const Proposition& asked = question.options.front();
     query.any_action = asked.actions == kAny;
     query.actions = ActionNames(asked);
     query.any_object = asked.objects == kAny;
     query.objects = ObjectRefs(asked.objects);
-    query.options = {{.text = "Yes"}, {.text = "No"}};
+    query.options = {{.text = Finished(input_.phrases.yes)}, {.text = Finished(input_.phrases.no)}};
   }
   query.n_candidates = belief.possible_pairs;
   query.expected_questions = belief.expected_questions;
@@ -236,16 +230,17 @@ void Interview::AskObject(int object, bool in_doubt) {
   asked_object_ = object;
   msg::Query query;
   query.kind = msg::QueryKind::kWhatIsIt;
-  query.text = "What is this object?";
+  query.text = Finished(input_.phrases.what_is_it);
   query.any_object = false;
   query.objects = {Ref(object)};
   const int id = input_.scene.objects[object].id;
   offer_ = Offer(object);
   for (const int category : offer_) {
     const std::string& name = affordances_.categories()[category].name;
-    query.options.push_back({WithArticle(Noun(name)), name, {}, {id}});
+    query.options.push_back({ANoun(input_.phrases, name), name, {}, {id}});
   }
-  query.options.push_back({kNoneOfThese, msg::kUnknownCategory, {}, {id}});
+  query.options.push_back(
+      {Finished(input_.phrases.none_of_these), msg::kUnknownCategory, {}, {id}});
   query.n_candidates = situation_.pair_count();
   query.expected_questions = 1;
   JustifyWhatIsIt(query, in_doubt);

@@ -32,6 +32,7 @@ struct InterviewInput {
   std::string device;  // that requested the session
   std::map<std::string, DeviceModel> devices;
   uint64_t seed = 0;
+  Phrases phrases = English();
 };
 
 /// The accepted task.
