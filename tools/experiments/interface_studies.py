@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy
+
 import plots
 from lab import Run
 from report import table
-from scenarios import FIRST_SEED, KINDS
+from scenarios import FIRST_SEED, KINDS, read
 from summaries import Errors, mean, mean_over_users, of_sessions
 
 SESSIONS = 200
@@ -14,6 +16,12 @@ Simulated users of all ten habits, {users} of each with {sessions} sessions, see
 and those of each answer shown, "none of these" among them; a scan ends with the wanted item. A P300-like device takes
 longer and is wrong in 10 % of its answers, which the policy is not told. The seconds are assumptions; what counts is
 the difference between rows of equal seconds."""
+REGRET_TEXT = """\
+`beckon-intention regret`, {scenes} random tables of each kind, seed {seed}, answers never wrong. Given the prior, how
+many seconds are expected until an accepted full query (with yes and no, questions: one second each), and how many at
+best: on small tables by the exact optimum over the same families of questions, on tables of the usual size by the best
+code whose words all end in yes, which may ask about any set of pairs and so is out of reach for `aof`. Boxes:
+quartiles; whiskers: 5 and 95 % of the tables."""
 
 
 @dataclass(frozen=True)
@@ -85,5 +93,56 @@ def plot_seconds(report, spans):
     return plots.save(figure, report, "seconds", "Seconds a task by front end")
 
 
+STUDIES = (  # of regret: title, how it is answered, which best
+    ("yes/no, small tables", (), "exact"),
+    ("yes/no, tables of 44 pairs", (), "code"),
+    ("choice of 4, small tables", FRONT_ENDS[1].arguments(), "exact"),
+)
+
+
 def regret(lab, report):
-    report.skip("regret", "this beckon-intention has no `regret`")
+    if not lab.offers("regret", "--jsonl"):
+        report.skip("regret", "this beckon-intention has no `regret`")
+        return
+    scenes = 10 if lab.quick else 100
+    rows, groups = [], []
+    for title, arguments, best in STUDIES:
+        out = lab.folder / "regret.jsonl"
+        lab.call(["regret", "--scenes", str(scenes), "--seed", str(FIRST_SEED), *arguments, "--jsonl", str(out)])
+        kinds = {}
+        for line in read(out):
+            if line["best_of"] == best:
+                kinds.setdefault((line["queries"], line["prior"]), []).append(line)
+        groups.append((title, kinds))
+        rows += [[title, f"`{queries}`", prior, *regret_figures(lines)] for (queries, prior), lines in kinds.items()]
+        print(f"regret, {title}: {scenes} tables of {len(kinds)} kinds", flush=True)
+    report.section(
+        "How far from the best possible", REGRET_TEXT.format(scenes=scenes, seed=FIRST_SEED),
+        plot_regret(report, groups),
+        table(["", "questions", "prior", "pairs", "expected", "at best", "regret", "p95 of a table"], rows))
+
+
+def regret_figures(lines):
+    asked, best = (numpy.array([line[key] for line in lines]) for key in ("seconds", "best_seconds"))
+    return [f"{numpy.mean([line['pairs'] for line in lines]):.0f}", f"{asked.mean():.3f}", f"{best.mean():.3f}",
+            f"{100 * (asked.mean() / best.mean() - 1):.2f} %", f"{100 * numpy.percentile(asked / best - 1, 95):.1f} %"]
+
+
+def plot_regret(report, groups):
+    figure, axes = plots.panels(len(groups), width=4)
+    for axis, (title, kinds) in zip(axes, groups):
+        priors = list(dict.fromkeys(prior for _, prior in kinds))
+        for queries, colour, shift in (("aof", plots.SKY, -0.18), ("all", plots.BLUE, 0.18)):
+            losses = [[100 * (line["seconds"] / line["best_seconds"] - 1) for line in kinds[queries, prior]]
+                      for prior in priors]
+            boxes = axis.boxplot(losses, positions=numpy.arange(len(priors)) + shift, widths=0.3, whis=(5, 95),
+                                 showfliers=False, patch_artist=True, medianprops={"color": plots.BLACK})
+            for box in boxes["boxes"]:
+                box.set(facecolor=colour, alpha=0.7)
+            axis.plot([], [], color=colour, linewidth=6, alpha=0.7, label=f"questions of {queries}")
+        axis.set(title=title, xticks=range(len(priors)), xticklabels=priors)
+        axis.grid(axis="x", visible=False)
+        axis.set_ylim(bottom=min(0, axis.get_ylim()[0]))
+    axes[0].set_ylabel("more than at best, %")
+    plots.legend_below(figure, axes[0], 2)
+    return plots.save(figure, report, "regret", "Regret by prior and family of questions")
