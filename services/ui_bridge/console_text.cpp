@@ -21,8 +21,8 @@ std::string Normalised(const std::string& line) {
 }
 
 bool IsYesNo(const msg::Query& query) {
-  return query.options.size() == 2 && query.options[0].text == "Yes" &&
-         query.options[1].text == "No";
+  return query.options.size() == 2 && query.kind != msg::QueryKind::kChoice &&
+         query.kind != msg::QueryKind::kWhatIsIt;
 }
 
 std::string HowToAnswer(const msg::Query& query) {
