@@ -33,7 +33,6 @@ class AdaptiveDialogue : public Dialogue {
                    std::vector<double> prior, const Interface& interface)
       : config_(config),
         situation_(situation),
-        interface_(interface),
         errors_(interface.errors),
         interface_(interface),
         noisy_(errors_.noisy()),
@@ -52,11 +51,15 @@ class AdaptiveDialogue : public Dialogue {
   std::optional<Question> Ask() override {
     if (!choice_) {
       if (ending_ != Ending::kOpen) return std::nullopt;
-      choice_ = ChooseQuestion(situation_, posterior_, interface_, MeanRates(), config_.families,
+      const std::vector<double> posterior = noisy_ ? IfAnswersMean() : posterior_;
+      choice_ = ChooseQuestion(situation_, posterior, interface_, MeanRates(), config_.families,
                                config_.accept_posterior);
       if (choice_ && noisy_ && interface_.kind == InterfaceKind::kYesNo) {
-        if (const int best = Likeliest(); posterior_[best] > kAskFor)
-          choice_->question = AskPair(situation_, Confirming(best));
+        const auto best = std::max_element(posterior.begin(), posterior.end());
+        if (*best > kAskFor) {
+          const int pair = Confirming(static_cast<int>(best - posterior.begin()));
+          choice_->question = AskPair(situation_, pair);
+        }
       }
     }
     if (!choice_) return std::nullopt;
@@ -137,9 +140,17 @@ class AdaptiveDialogue : public Dialogue {
     return Ending::kOpen;
   }
 
-  int Likeliest() const {
-    return static_cast<int>(std::max_element(posterior_.begin(), posterior_.end()) -
-                            posterior_.begin());
+  /// By pair, over the levels at which answers mean something: at the others no question helps.
+  std::vector<double> IfAnswersMean() const {
+    std::vector<double> posterior(posterior_.size(), 0.0);
+    double sum = 0;
+    for (int level = 0; level < kLevels; ++level) {
+      if (!errors_.Means(level)) continue;
+      sum += level_[level];
+      for (size_t i = 0; i < posterior.size(); ++i) posterior[i] += joint_[i][level];
+    }
+    for (double& p : posterior) p = std::min(p / sum, 1.0);
+    return posterior;
   }
 
   /// Which pair to ask for where one is likelier than all others: itself, or, where what speaks
@@ -181,7 +192,6 @@ class AdaptiveDialogue : public Dialogue {
 
   const AdaptiveConfig config_;
   const Situation& situation_;
-  const Interface interface_;
   const ErrorModel errors_;
   const Interface interface_;
   const bool noisy_;
