@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "services/intention/affordances_file.h"
+#include "services/intention/core/interview.h"
 #include "services/intention/core/question.h"
 #include "services/intention/phrases_file.h"
 #include "tests/intention/fixtures.h"
@@ -154,6 +155,25 @@ TEST_F(Said, AgainAndOfObjects) {
   EXPECT_EQ(ObjectText(affordances, situation, 1, en.object_moved, en),
             "The second mug has moved.");
   EXPECT_EQ(ObjectText(affordances, situation, 0, de.object_gone, de), "Der Karton ist weg.");
+}
+
+TEST_F(Said, AnInterviewSpeaksTheLanguage) {
+  const auto policy = MakePolicy("adaptive", affordances, QueryFamilies::kAll);
+  ASSERT_TRUE(policy.ok());
+  InterviewInput input;
+  input.scene = SceneOf({SceneObject(1, "SprayCan", 0, 0.5)});
+  input.remembered = {""};
+  input.phrases = de;
+  Interview interview(affordances, **policy, input);
+  auto query = std::get<msg::Query>(interview.outcome());
+  EXPECT_EQ(query.text, "Die Sprühdose greifen?");
+  EXPECT_EQ(query.options[0].text, "Ja");
+  EXPECT_EQ(query.options[1].text, "Nein");
+  interview.NoneOfThese("");
+  query = std::get<msg::Query>(interview.outcome());
+  EXPECT_EQ(query.text, "Was ist das für ein Objekt?");
+  EXPECT_EQ(query.options.front().text.substr(0, 3), "ein");
+  EXPECT_EQ(query.options.back().text, "Nichts davon");
 }
 
 TEST_F(Said, LargeNumbersInDigits) {
