@@ -64,6 +64,34 @@ TEST_F(Prior, CopesWithALastTaskThatIsNotThere) {
   EXPECT_TRUE(PriorOver(MakeSituation(a, {}), {}).empty());
 }
 
+TEST_F(Prior, LooksBackSoFarAndNoFurther) {
+  UserHistory history(1000, Past("Box", "Push"));
+  history.resize(1500, Past("Mug", "Drink", 2));
+  UserHistory longer(700, Past("Tube", "Squeeze"));
+  longer.insert(longer.end(), history.begin() + 500, history.end());
+  const auto prior = PriorOver(s, UserHistory(history.begin() + 500, history.end()));
+  EXPECT_EQ(PriorOver(s, history), prior);
+  EXPECT_EQ(PriorOver(s, longer), prior);
+}
+
+TEST_F(Prior, KeepsToTheFavouriteInstance) {
+  PastSession past = Past("Mug", "Drink", 2);
+  past.present = Situation(s).Present(a);
+  const auto prior = PriorOver(s, UserHistory(8, past));
+  EXPECT_GT(Of(prior, "Mug", 2, "Drink"), 0.7);
+}
+
+TEST_F(Prior, PassesOverWhatCannotBe) {
+  PastSession odd = Past("Mug", "Drink", 1'000'000'000);
+  odd.present.assign(a.categories().size(), 0);  // not even the mug that was wanted
+  PastSession none = Past("Carton", "Open", -3);
+  none.present = {1};
+  for (const double p : PriorOver(s, {odd, none, odd})) {
+    EXPECT_GT(p, 0);
+    EXPECT_LT(p, 1);
+  }
+}
+
 TEST_F(Prior, CapKeepsTheSum) {
   std::vector<double> prior = {0.97, 0.02, 0.01};
   CapPrior(prior, 0.9);

@@ -1,44 +1,56 @@
 #include "services/intention/core/habit.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace beckon::intention {
 namespace {
 
 /// P(the preferences change after a session).
 constexpr double kChange = 0.01;
-/// Of the Dirichlet priors: a new user wants a few things, some or many.
-constexpr std::array<double, 3> kConcentrations = {1, 4, 16};
+/// Of the sparse Dirichlet priors: a user wants few different things, or many.
+constexpr std::array<double, 2> kConcentrations = {2, 16};
 /// P(new wants resemble the known ones), at first.
 constexpr double kAlike = 0.3;
-/// Share of the styles' prior that comes back each session (Herbster & Warmuth 1998).
+/// Known wants are as strong as they were frequent, or about equally strong; P(the latter).
+constexpr double kEvenness = 10;
+constexpr double kEven = 0.3;
+/// Share of the styles' prior that comes back each session (fixed share, Herbster & Warmuth 1998).
 constexpr double kStyleShare = 0.01;
-/// Prior exposure of a category, in sessions; the middle concentration.
+/// Prior exposure of a category, in sessions.
 constexpr double kExposure = 4;
-/// Of categories and actions when new wants are thought to resemble known ones.
-constexpr double kPseudoCount = 0.3;
+/// Where new wants resemble known ones: pseudo-counts of a category and an action, and what a count
+/// weighs a session later. An object is more telling than an action.
+constexpr double kCategoryPseudoCount = 0.1;
+constexpr double kActionPseudoCount = 1;
 constexpr double kForgetting = 0.98;
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
 
-Habit::Habit(const Tasks& tasks) : tasks_(tasks) {
+std::array<Habit::Style, Habit::kStyles> Habit::MakeStyles() {
+  std::array<Style, kStyles> styles;
   size_t i = 0;
   for (const double concentration : kConcentrations) {
-    for (const bool alike : {false, true}) {
-      styles_[i] = {concentration, alike, (alike ? kAlike : 1 - kAlike) / kConcentrations.size()};
-      style_[i] = styles_[i].prior;
-      ++i;
+    for (const size_t alike : {0, 1}) {
+      for (const bool even : {false, true}) {
+        styles[i++] = {concentration, alike, even,
+                       (alike == 1 ? kAlike : 1 - kAlike) * (even ? kEven : 1 - kEven) /
+                           kConcentrations.size()};
+      }
     }
   }
+  return styles;
+}
+
+Habit::Habit(const Tasks& tasks) : tasks_(tasks) {
+  for (size_t s = 0; s < kStyles; ++s) style_[s] = styles_[s].prior;
   for (Era& era : eras_) Clear(era);
   eras_[0].posterior = 1;
-  newness_.fill(std::vector<double>(Index(tasks.count()), 1.0 / std::max(1, tasks.count())));
+  even_newness_ = 1.0 / std::max(1, tasks.count());
   category_newness_.fill(std::vector<double>(Index(tasks.categories()), 0));
-  for (int t = 0; t < tasks.count(); ++t) {
-    category_newness_[0][Index(tasks.category(t))] += newness_[0][Index(t)];
+  for (int c = 0; c < tasks.categories(); ++c) {
+    category_newness_[0][Index(c)] = even_newness_ * (tasks.first(c + 1) - tasks.first(c));
   }
   categories_wanted_.assign(Index(tasks.categories()), 0);
   actions_wanted_.assign(Index(tasks.actions()), 0);
@@ -46,130 +58,151 @@ Habit::Habit(const Tasks& tasks) : tasks_(tasks) {
 }
 
 void Habit::Clear(Era& era) const {
-  era.posterior = 0;
+  const size_t categories = Index(tasks_.categories());
+  era.posterior = era.sessions = era.known = era.spread = 0;
   era.wanted.assign(Index(tasks_.count()), 0);
-  era.category_wanted.assign(Index(tasks_.categories()), 0);
-  era.exposure.assign(Index(tasks_.categories()), 0);
-  era.appeal.assign(Index(tasks_.categories()), 1 / kExposure);
+  era.category_wanted.assign(categories, 0);
+  era.category_known.assign(categories, 0);
+  era.exposure.assign(categories, 0);
+  era.appeal.assign(categories, 1 / kExposure);
 }
 
-Habit::Strengths Habit::Present(const Era& era, const std::vector<int>& present) const {
-  Strengths sum;
-  for (size_t c = 0; c < present.size(); ++c) {
-    const double appeal = present[c] != 0 ? era.appeal[c] : 0;
-    sum.wanted += appeal * era.category_wanted[c];
-    sum.newness[0] += appeal * category_newness_[0][c];
-    sum.newness[1] += appeal * category_newness_[1][c];
+Habit::Sums Habit::Add(const Era& era, const std::vector<double>& there) const {
+  Sums sums;
+  for (size_t c = 0; c < there.size(); ++c) {
+    const double appeal = there[c] * era.appeal[c];
+    sums.wanted += appeal * era.category_wanted[c];
+    sums.known += appeal * era.category_known[c];
+    sums.newness[0] += appeal * category_newness_[0][c];
+    sums.newness[1] += appeal * category_newness_[1][c];
   }
-  return sum;
+  return sums;
 }
 
-std::vector<double> Habit::Predict(const std::vector<int>& present) {
+/// Evenness moves strength among the known tasks and gives them no more together.
+double Habit::Total(const Era& era, const Style& style, const Sums& sums) {
+  const double known =
+      style.even ? era.spread * (sums.wanted + kEvenness * sums.known) : sums.wanted;
+  return known + style.concentration * sums.newness[style.alike];
+}
+
+std::vector<double> Habit::Predict(const std::vector<double>& there) const {
   std::vector<double> p(Index(tasks_.count()), 0);
   for (const Era& era : eras_) {
-    if (era.posterior <= 0) continue;
-    const Strengths sum = Present(era, present);
-    double wanted = 0;  // what a unit of strength is worth
-    std::array<double, 2> newness{};
+    const Sums sums = Add(era, there);
+    Sums worth;  // of a unit of each kind of strength
     for (size_t s = 0; s < kStyles; ++s) {
-      const double k = styles_[s].concentration;
-      const double unit =
-          era.posterior * style_[s] / (sum.wanted + k * sum.newness[styles_[s].alike]);
-      wanted += unit;
-      newness[styles_[s].alike] += k * unit;
+      const Style& style = styles_[s];
+      const double unit = era.posterior * style_[s] / Total(era, style, sums);
+      worth.wanted += style.even ? unit * era.spread : unit;
+      worth.known += style.even ? unit * era.spread * kEvenness : 0;
+      worth.newness[style.alike] += unit * style.concentration;
     }
-    for (size_t t = 0; t < p.size(); ++t) {
-      const auto c = Index(tasks_.category(static_cast<int>(t)));
-      if (present[c] == 0) continue;
-      p[t] += era.appeal[c] *
-              (wanted * era.wanted[t] + newness[0] * newness_[0][t] + newness[1] * newness_[1][t]);
+    for (int t = 0; t < tasks_.count(); ++t) {
+      const auto c = Index(tasks_.category(t));
+      const std::array<double, 2> newness = Newness(t);
+      const double wanted = era.wanted[Index(t)];
+      p[Index(t)] += there[c] * era.appeal[c] *
+                     (worth.wanted * wanted + worth.known * std::min(1.0, wanted) +
+                      worth.newness[0] * newness[0] + worth.newness[1] * newness[1]);
     }
   }
   return p;
 }
 
-double Habit::Probability(int task, const std::vector<int>& present) {
+double Habit::Probability(int task, const std::vector<double>& there) {
   const auto t = Index(task), c = Index(tasks_.category(task));
+  const std::array<double, 2> newness = Newness(task);
   double p = 0;
   for (size_t e = 0; e < kEras; ++e) {
     const Era& era = eras_[e];
-    const Strengths sum = strengths_[e] = Present(era, present);
+    sums_[e] = Add(era, there);
+    Sums own;
+    own.wanted = era.appeal[c] * era.wanted[t];
+    own.known = era.appeal[c] * std::min(1.0, era.wanted[t]);
+    own.newness = {era.appeal[c] * newness[0], era.appeal[c] * newness[1]};
     for (size_t s = 0; s < kStyles; ++s) {
-      const double k = styles_[s].concentration;
-      const bool alike = styles_[s].alike;
-      likelihood_[e][s] = era.appeal[c] * (era.wanted[t] + k * newness_[alike][t]) /
-                          (sum.wanted + k * sum.newness[alike]);
+      likelihood_[e][s] = Total(era, styles_[s], own) / Total(era, styles_[s], sums_[e]);
       p += era.posterior * style_[s] * likelihood_[e][s];
     }
   }
   return p;
 }
 
-void Habit::Learn(int task, const std::vector<int>& present, double habit, double other) {
-  const auto t = Index(task), c = Index(tasks_.category(task));
-  const double p = std::inner_product(
-      eras_.begin(), eras_.end(), likelihood_.begin(), 0.0, std::plus<>(),
-      [&](const Era& era, const auto& l) {
-        return era.posterior * std::inner_product(l.begin(), l.end(), style_.begin(), 0.0);
-      });
+void Habit::Learn(int task, const std::vector<double>& there, double habit, double other) {
+  std::array<double, kStyles> by_style{};
+  std::array<double, kEras> by_era{};
+  double p = 0;
+  for (size_t e = 0; e < kEras; ++e) {
+    for (size_t s = 0; s < kStyles; ++s) {
+      by_era[e] += style_[s] * likelihood_[e][s];
+      by_style[s] += eras_[e].posterior * likelihood_[e][s];
+    }
+    p += eras_[e].posterior * by_era[e];
+  }
   const double evidence = habit * p + other;
-  const double weight = habit * p / evidence;  // P(it was habit): only this much is learnt
-
-  std::array<double, kStyles> style{};
+  const double weight = habit * p / evidence;
+  for (size_t s = 0; s < kStyles; ++s) {
+    style_[s] *= (1 - kStyleShare) * (habit * by_style[s] + other) / evidence;
+    style_[s] += kStyleShare * styles_[s].prior;
+  }
   for (size_t e = 0; e < kEras; ++e) {
     Era& era = eras_[e];
-    double mean = 0;
-    for (size_t s = 0; s < kStyles; ++s) {
-      mean += style_[s] * likelihood_[e][s];
-      style[s] += era.posterior * likelihood_[e][s];
+    era.posterior *= (habit * by_era[e] + other) / evidence;
+    // Posterior mean of the exponential variable that stands for a choice (Caron & Doucet).
+    const double exposure = weight / (sums_[e].wanted + kExposure * sums_[e].newness[0]);
+    for (size_t c = 0; c < there.size(); ++c) {
+      era.exposure[c] += exposure * there[c];
+      era.appeal[c] = 1 / (kExposure + era.exposure[c]);
     }
-    era.posterior *= (habit * mean + other) / evidence;
+    const auto t = Index(task), c = Index(tasks_.category(task));
+    const double known = std::min(1.0, era.wanted[t] + weight) - std::min(1.0, era.wanted[t]);
     era.wanted[t] += weight;
     era.category_wanted[c] += weight;
-    const double seen =
-        weight / (strengths_[e].wanted + kConcentrations[1] * strengths_[e].newness[0]);
-    for (size_t i = 0; i < present.size(); ++i) {
-      if (present[i] == 0) continue;
-      era.exposure[i] += seen;
-      era.appeal[i] = 1 / (kExposure + era.exposure[i]);
-    }
-  }
-  for (size_t s = 0; s < kStyles; ++s) {
-    style_[s] = (1 - kStyleShare) * style_[s] * (habit * style[s] + other) / evidence +
-                kStyleShare * styles_[s].prior;
+    era.category_known[c] += known;
+    era.sessions += weight;
+    era.known += known;
+    era.spread = era.sessions / (era.sessions + kEvenness * era.known);
   }
   for (double& x : categories_wanted_) x *= kForgetting;
   for (double& x : actions_wanted_) x *= kForgetting;
-  categories_wanted_[c] += weight;
+  categories_wanted_[Index(tasks_.category(task))] += weight;
   actions_wanted_[Index(tasks_.action(task))] += weight;
   UpdateNewness();
-  Change(*std::min_element(eras_.begin(), eras_.end(),
-                           [](const Era& a, const Era& b) { return a.posterior < b.posterior; }));
+  BeginEra();
 }
 
 /// The least credible era makes room for one that begins now.
-void Habit::Change(Era& newest) {
+void Habit::BeginEra() {
+  Era& newest = *std::min_element(eras_.begin(), eras_.end(), [](const Era& a, const Era& b) {
+    return a.posterior < b.posterior;
+  });
   const double rest = 1 - newest.posterior;
   for (Era& era : eras_) era.posterior *= (1 - kChange) / rest;
   Clear(newest);
   newest.posterior = kChange;
 }
 
+std::array<double, 2> Habit::Newness(int task) const {
+  return {even_newness_,
+          alike_newness_ *
+              (categories_wanted_[Index(tasks_.category(task))] + kCategoryPseudoCount) *
+              (actions_wanted_[Index(tasks_.action(task))] + kActionPseudoCount)};
+}
+
 void Habit::UpdateNewness() {
   double sum = 0;
   for (int c = 0; c < tasks_.categories(); ++c) {
-    double& category = category_newness_[1][Index(c)];
-    category = 0;
+    double actions = 0;
     for (int t = tasks_.first(c); t < tasks_.first(c + 1); ++t) {
-      double& task = newness_[1][Index(t)];
-      task = (categories_wanted_[Index(c)] + kPseudoCount) *
-             (actions_wanted_[Index(tasks_.action(t))] + kPseudoCount);
-      category += task;
+      actions += actions_wanted_[Index(tasks_.action(t))] + kActionPseudoCount;
     }
+    double& category = category_newness_[1][Index(c)];
+    category = (categories_wanted_[Index(c)] + kCategoryPseudoCount) * actions;
     sum += category;
   }
-  for (double& x : newness_[1]) x /= sum;
-  for (double& x : category_newness_[1]) x /= sum;
+  alike_newness_ = 1 / sum;
+  for (double& x : category_newness_[1]) x *= alike_newness_;
 }
 
 }  // namespace beckon::intention

@@ -9,66 +9,78 @@
 namespace beckon::intention {
 
 /// A Bayesian mixture over when the preferences last changed (Adams & MacKay, Bayesian Online
-/// Changepoint Detection, 2007) and over how the user comes to want something new. Preferences are
+/// Changepoint Detection, 2007) and over how the user comes to want what. Preferences are
 /// strengths: a task is chosen in proportion among what is on the table (Luce), so that a task that
 /// was not there is not thought to be unwanted (Caron & Doucet 2012: gamma priors, gamma
-/// posteriors). See docs/intention.md.
+/// posteriors). See docs/intention.md. Everywhere `there` is 1 or 0 by category (Presence).
 class Habit {
  public:
+  /// `tasks` must outlive the habit.
   explicit Habit(const Tasks& tasks);
 
-  /// P(task | what is present) for every task; 0 for those that are not there.
-  std::vector<double> Predict(const std::vector<int>& present);
-  /// Of one task that is present; Learn of the same task may follow.
-  double Probability(int task, const std::vector<int>& present);
-  /// The task was wanted: with probability `habit` out of habit, and `other` is the probability
-  /// that it would be wanted, and for another reason.
-  void Learn(int task, const std::vector<int>& present, double habit, double other);
+  /// P(task | what is there) for every task; 0 for those that are not.
+  std::vector<double> Predict(const std::vector<double>& there) const;
+  /// Of one task that is there; Learn may follow for the same.
+  double Probability(int task, const std::vector<double>& there);
+  /// The task was wanted. `habit` is the probability that a want comes from habit, `other` that it
+  /// does not and is this one: only as much is learnt as habit explains.
+  void Learn(int task, const std::vector<double>& there, double habit, double other);
 
  private:
-  static constexpr int kEras = 5;
-  static constexpr int kStyles = 6;
+  static constexpr size_t kEras = 4;
+  static constexpr size_t kStyles = 8;
 
-  /// The hypothesis that the preferences are what they are since some session. Strength of a task:
-  /// (wanted + concentration * newness) * appeal.
+  /// The hypothesis that the preferences are what they are since some session.
   struct Era {
     double posterior = 0;
-    std::vector<double> wanted;           // by task
+    double sessions = 0;                  // explained by habit
+    double known = 0;                     // tasks that were wanted
+    double spread = 0;                    // sessions / (sessions + kEvenness * known)
+    std::vector<double> wanted;           // by task: how often
     std::vector<double> category_wanted;  // by category: its sum
+    std::vector<double> category_known;   // by category: tasks that were wanted
     std::vector<double> exposure;         // by category: how much it was there to be wanted
     std::vector<double> appeal;           // by category: 1 / (kExposure + exposure)
   };
-  /// How new wants come about: how many there are and whether they resemble known ones.
+  /// Strength of a task in an era, but for its appeal:
+  ///   wanted + concentration * newness[alike], or, where known tasks are wanted about evenly,
+  ///   spread * (wanted + kEvenness * [was wanted]) + concentration * newness[alike].
   struct Style {
-    double concentration = 0;
-    bool alike = false;
+    double concentration = 0;  // how many new wants there are
+    size_t alike = 0;          // 1: they resemble the known ones
+    bool even = false;
     double prior = 0;
   };
-  /// Of an era, over what is present.
-  struct Strengths {
+  /// What the strengths of all tasks that are there add up from.
+  struct Sums {
     double wanted = 0;
+    double known = 0;
     std::array<double, 2> newness{};
   };
 
+  static std::array<Style, kStyles> MakeStyles();
   void Clear(Era& era) const;
-  Strengths Present(const Era& era, const std::vector<int>& present) const;
-  /// Recomputes where new wants come from.
+  Sums Add(const Era& era, const std::vector<double>& there) const;
+  static double Total(const Era& era, const Style& style, const Sums& sums);
+  /// P(a new want is the task), by Style::alike.
+  std::array<double, 2> Newness(int task) const;
   void UpdateNewness();
-  void Change(Era& newest);
+  void BeginEra();
 
   const Tasks& tasks_;
-  std::array<Era, kEras> eras_;
-  std::array<Style, kStyles> styles_{};
+  const std::array<Style, kStyles> styles_ = MakeStyles();
   std::array<double, kStyles> style_{};  // posterior
-  // Where a new want comes from, by task, and its sum by category: 0 evenly, 1 in proportion to how
-  // often its category and how often its action were wanted.
-  std::array<std::vector<double>, 2> newness_;
-  std::array<std::vector<double>, 2> category_newness_;
+  std::array<Era, kEras> eras_;
+  // How often categories and actions were wanted, decayed; where new wants resemble known ones they
+  // come in proportion to both.
   std::vector<double> categories_wanted_;
   std::vector<double> actions_wanted_;
-  // Of the last Probability: by era and style, and by era what is present.
+  double even_newness_ = 0;   // of a task, where new wants do not resemble known ones
+  double alike_newness_ = 0;  // of a task, where they do, by unit of category times action
+  std::array<std::vector<double>, 2> category_newness_;
+  // Of the last Probability, by era.
   std::array<std::array<double, kStyles>, kEras> likelihood_{};
-  std::array<Strengths, kEras> strengths_{};
+  std::array<Sums, kEras> sums_{};
 };
 
 }  // namespace beckon::intention

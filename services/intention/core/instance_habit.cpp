@@ -1,6 +1,5 @@
 #include "services/intention/core/instance_habit.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "services/intention/core/situation.h"
@@ -28,34 +27,31 @@ void InstanceHabit::Counts::Add(int place) {
   n[static_cast<size_t>(place)] += 1;
 }
 
-InstanceHabit::Choices InstanceHabit::Ways(int category, int instances) const {
-  Choices ways;
-  for (auto& way : ways) way.reserve(static_cast<size_t>(instances));
+std::array<double, InstanceHabit::kWays> InstanceHabit::Ways(int category, int rank,
+                                                             int instances) const {
   const Counts& own = favourite_[static_cast<size_t>(category)];
-  double prior = kNearest, sum = 0, own_sum = kGeneral;
+  const int near_place = rank - 1, far_place = instances - rank;
+  double prior = kNearest, near = 0, far = 0, near_sum = 0, far_sum = 0, own_sum = kGeneral;
   for (int place = 0; place < instances; ++place, prior *= 1 - kNearest) {
-    ways[kFromNearest].push_back(near_.Of(place) + prior);
-    ways[kFromFurthest].push_back(far_.Of(place) + prior);
-    sum += ways[kFromNearest].back();
+    const double from_near = near_.Of(place) + prior, from_far = far_.Of(place) + prior;
+    if (place == near_place) near = from_near;
+    if (place == far_place) far = from_far;
+    near_sum += from_near;
+    far_sum += from_far;
     own_sum += own.Of(place);
   }
-  for (double& p : ways[kFromNearest]) p /= sum;
-  std::reverse(ways[kFromFurthest].begin(), ways[kFromFurthest].end());
-  const double far_sum =
-      std::accumulate(ways[kFromFurthest].begin(), ways[kFromFurthest].end(), 0.0);
-  for (double& p : ways[kFromFurthest]) p /= far_sum;
-  for (int place = 0; place < instances; ++place) {
-    const double general = ways[kFromNearest][static_cast<size_t>(place)];
-    ways[kFavourite].push_back((own.Of(place) + kGeneral * general) / own_sum);
-  }
+  std::array<double, kWays> ways{};
+  ways[kFromNearest] = near / near_sum;
+  ways[kFavourite] = (own.Of(near_place) + kGeneral * ways[kFromNearest]) / own_sum;
+  ways[kFromFurthest] = far / far_sum;
   return ways;
 }
 
 std::vector<double> InstanceHabit::Predict(int category, int instances) const {
-  std::vector<double> p(static_cast<size_t>(instances), 0);
-  const Choices ways = Ways(category, instances);
-  for (size_t way = 0; way < kWays; ++way) {
-    for (size_t i = 0; i < p.size(); ++i) p[i] += way_[way] * ways[way][i];
+  std::vector<double> p;
+  for (int rank = 1; rank <= instances; ++rank) {
+    const auto ways = Ways(category, rank, instances);
+    p.push_back(std::inner_product(ways.begin(), ways.end(), way_.begin(), 0.0));
   }
   return p;
 }
@@ -63,14 +59,10 @@ std::vector<double> InstanceHabit::Predict(int category, int instances) const {
 void InstanceHabit::Learn(int category, int rank, int instances) {
   if (instances == 1 || rank < 1 || rank > kMaxThings) return;
   if (instances >= rank) {
-    const Choices ways = Ways(category, instances);
-    double evidence = 0;
+    const auto ways = Ways(category, rank, instances);
+    const double evidence = std::inner_product(ways.begin(), ways.end(), way_.begin(), 0.0);
     for (size_t way = 0; way < kWays; ++way) {
-      way_[way] *= ways[way][static_cast<size_t>(rank) - 1];
-      evidence += way_[way];
-    }
-    for (size_t way = 0; way < kWays; ++way) {
-      way_[way] = (1 - kShare) * way_[way] / evidence + kShare * kWayPrior[way];
+      way_[way] = (1 - kShare) * way_[way] * ways[way] / evidence + kShare * kWayPrior[way];
     }
     far_.Add(instances - rank);
   }

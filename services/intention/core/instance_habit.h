@@ -27,9 +27,8 @@ class InstanceHabit {
     void Add(int place);
   };
   enum Way { kFromNearest, kFavourite, kFromFurthest, kWays };
-  using Choices = std::array<std::vector<double>, kWays>;
-
-  Choices Ways(int category, int instances) const;
+  /// P(rank) by each way.
+  std::array<double, kWays> Ways(int category, int rank, int instances) const;
 
   std::array<double, kWays> way_;
   Counts near_;

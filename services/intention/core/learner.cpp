@@ -12,9 +12,6 @@ constexpr double kForgetting = 0.95;
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
-/// Trust in what followed n times.
-double Trust(double n, double doubt) { return n / (n + doubt); }
-
 }  // namespace
 
 Learner::Learner(const Tasks& tasks)
@@ -29,70 +26,67 @@ Learner::Grid Learner::Prior() {
   return prior;
 }
 
-bool Learner::LastIsPresent(const std::vector<int>& present) const {
-  return last_ >= 0 && present[Index(tasks_.category(last_))] != 0;
-}
-
-double Learner::Followers(const std::vector<int>& present) const {
-  double sum = 0;
-  if (last_ < 0) return sum;
+Learner::Past Learner::Recall(const std::vector<double>& there) const {
+  Past past;
+  if (last_ < 0) return past;
+  past.repeatable = there[Index(tasks_.category(last_))];
   const std::vector<double>& next = followed_[Index(last_)];
   for (size_t t = 0; t < next.size(); ++t) {
-    if (present[Index(tasks_.category(static_cast<int>(t)))] != 0) sum += next[t];
+    past.followers += there[Index(tasks_.category(static_cast<int>(t)))] * next[t];
   }
-  return sum;
+  for (size_t d = 0; d < kDoubts.size(); ++d) {
+    past.trust[d] = past.followers / (past.followers + kDoubts[d]);
+  }
+  return past;
 }
 
-Learner::Reasons Learner::Weigh(const std::vector<int>& present, double followers) const {
+Learner::Reasons Learner::Weigh(const Past& past) const {
   Reasons mean;
-  const bool can_repeat = LastIsPresent(present);
   for (size_t r = 0; r < kRepeats.size(); ++r) {
-    const double again = can_repeat ? kRepeats[r] : 0;
+    const double again = past.repeatable * kRepeats[r];
     for (size_t d = 0; d < kDoubts.size(); ++d) {
-      const double follows = (1 - again) * Trust(followers, kDoubts[d]);
       mean.again += grid_[r][d] * again;
-      mean.follows += grid_[r][d] * follows;
-      mean.habit += grid_[r][d] * (1 - again - follows);
+      mean.follows += grid_[r][d] * (1 - again) * past.trust[d];
+      mean.habit += grid_[r][d] * (1 - again) * (1 - past.trust[d]);
     }
   }
   return mean;
 }
 
-std::vector<double> Learner::Predict(const std::vector<int>& present) {
-  const double followers = Followers(present);
-  const Reasons reasons = Weigh(present, followers);
-  std::vector<double> p = habit_.Predict(present);
+std::vector<double> Learner::Predict(const std::vector<double>& there) const {
+  const Past past = Recall(there);
+  const Reasons reasons = Weigh(past);
+  std::vector<double> p = habit_.Predict(there);
   for (double& x : p) x *= reasons.habit;
-  if (followers > 0) {
-    const std::vector<double>& next = followed_[Index(last_)];
-    for (size_t t = 0; t < p.size(); ++t) {
-      if (present[Index(tasks_.category(static_cast<int>(t)))] != 0) {
-        p[t] += reasons.follows * next[t] / followers;
-      }
-    }
+  if (last_ >= 0) p[Index(last_)] += reasons.again;
+  if (past.followers <= 0) return p;
+  const std::vector<double>& next = followed_[Index(last_)];
+  for (size_t t = 0; t < p.size(); ++t) {
+    const double here = there[Index(tasks_.category(static_cast<int>(t)))];
+    p[t] += reasons.follows * here * next[t] / past.followers;
   }
-  if (LastIsPresent(present)) p[Index(last_)] += reasons.again;
   return p;
 }
 
-void Learner::Learn(int task, const std::vector<int>& present) {
-  const double followers = Followers(present);
-  const Reasons reasons = Weigh(present, followers);
-  const bool can_repeat = LastIsPresent(present);
-  const double habit = habit_.Probability(task, present);
+void Learner::Learn(int task, const std::vector<double>& there) {
+  const Past past = Recall(there);
+  const Reasons reasons = Weigh(past);
+  const double habit = habit_.Probability(task, there);
   const double same = task == last_ ? 1 : 0;
-  const double next = followers > 0 ? followed_[Index(last_)][Index(task)] / followers : 0;
+  const double next =
+      past.followers > 0 ? followed_[Index(last_)][Index(task)] / past.followers : 0;
   const double other = reasons.again * same + reasons.follows * next;
   const double evidence = reasons.habit * habit + other;
-  habit_.Learn(task, present, reasons.habit, other);
+  habit_.Learn(task, there, reasons.habit, other);
 
-  const Grid prior = Prior();
+  static const Grid kPrior = Prior();
   for (size_t r = 0; r < kRepeats.size(); ++r) {
-    const double again = can_repeat ? kRepeats[r] : 0;
+    const double again = past.repeatable * kRepeats[r];
     for (size_t d = 0; d < kDoubts.size(); ++d) {
-      const double trust = Trust(followers, kDoubts[d]);
-      const double p = again * same + (1 - again) * (trust * next + (1 - trust) * habit);
-      grid_[r][d] = (1 - kShare) * grid_[r][d] * p / evidence + kShare * prior[r][d];
+      const double likelihood =
+          again * same + (1 - again) * (past.trust[d] * next + (1 - past.trust[d]) * habit);
+      grid_[r][d] *= (1 - kShare) * likelihood / evidence;
+      grid_[r][d] += kShare * kPrior[r][d];
     }
   }
   if (last_ >= 0) {

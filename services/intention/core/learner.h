@@ -18,18 +18,25 @@ class Learner {
   /// `tasks` must outlive the learner.
   explicit Learner(const Tasks& tasks);
 
-  /// P(task | what is present) for every task; 0 for those that are not there.
-  std::vector<double> Predict(const std::vector<int>& present);
-  /// The task was wanted. What is present: instances by category, not 0 for the task's.
-  void Learn(int task, const std::vector<int>& present);
+  /// P(task | what is there) for every task; 0 for those that are not there.
+  std::vector<double> Predict(const std::vector<double>& there) const;
+  /// The task was wanted. `there` is 1 or 0 by category (Presence), 1 for the task's.
+  void Learn(int task, const std::vector<double>& there);
 
  private:
   /// How often the last task is wanted again where it is there.
   static constexpr std::array<double, 4> kRepeats = {0, 0.3, 0.6, 0.9};
   /// What followed n times is trusted n / (n + doubt); the last: never.
-  static constexpr std::array<double, 4> kDoubts = {0.2, 1.5, 8, 1e9};
+  static constexpr std::array<double, 3> kDoubts = {0.4, 4, 1e9};
   using Grid = std::array<std::array<double, kDoubts.size()>, kRepeats.size()>;
 
+  /// What the last task says of the next one, given what is there.
+  struct Past {
+    double repeatable = 0;  // 1 where the last task can be wanted again, else 0
+    double followers = 0;   // times that something followed it that is there
+    std::array<double, kDoubts.size()> trust{};  // in those
+  };
+  /// Probabilities of the reasons.
   struct Reasons {
     double again = 0;
     double follows = 0;
@@ -37,11 +44,9 @@ class Learner {
   };
 
   static Grid Prior();
-  /// Of what followed the last task, how many are present.
-  double Followers(const std::vector<int>& present) const;
+  Past Recall(const std::vector<double>& there) const;
   /// Mean over the grid.
-  Reasons Weigh(const std::vector<int>& present, double followers) const;
-  bool LastIsPresent(const std::vector<int>& present) const;
+  Reasons Weigh(const Past& past) const;
 
   const Tasks& tasks_;
   Habit habit_;

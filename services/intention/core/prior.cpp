@@ -23,20 +23,20 @@ std::vector<double> PriorOver(const Situation& situation, const UserHistory& his
   const Tasks tasks(situation, past);
   Learner learner(tasks);
   InstanceHabit instances(tasks.categories());
-  std::vector<int> present;
+  Presence presence;
   for (const PastSession& session : past) {
-    tasks.Present(session, present);
+    tasks.Look(session, presence);
     const int task = tasks.Find(session.category, session.action);
     const int category = tasks.category(task);
-    learner.Learn(task, present);
-    instances.Learn(category, session.rank, present[static_cast<size_t>(category)]);
+    learner.Learn(task, presence.there);
+    instances.Learn(category, session.rank, presence.instances[static_cast<size_t>(category)]);
   }
 
-  present = tasks.Present(situation);
-  const std::vector<double> wanted = learner.Predict(present);
+  presence = tasks.Look(situation);
+  const std::vector<double> wanted = learner.Predict(presence.there);
   std::vector<std::vector<double>> choice;  // by category, the likeliest instance 1
   for (int c = 0; c < tasks.categories(); ++c) {
-    choice.push_back(instances.Predict(c, present[static_cast<size_t>(c)]));
+    choice.push_back(instances.Predict(c, presence.instances[static_cast<size_t>(c)]));
     const auto most = std::max_element(choice.back().begin(), choice.back().end());
     const double scale = most == choice.back().end() ? 1 : *most;
     for (double& p : choice.back()) p /= scale;

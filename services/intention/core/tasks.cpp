@@ -36,22 +36,29 @@ Tasks::Tasks(const Situation& situation, std::span<const PastSession> past)
   first_.push_back(count());
 }
 
-void Tasks::Present(const PastSession& past, std::vector<int>& present) const {
-  present.assign(names_.size(), past.present.empty() ? -1 : 0);
-  for (size_t c = 0; c < names_.size(); ++c) {
+void Tasks::Look(const PastSession& past, Presence& presence) const {
+  const size_t n = names_.size();
+  presence.instances.assign(n, past.present.empty() ? Presence::kNotRecorded : 0);
+  presence.there.assign(n, 1);
+  for (size_t c = 0; c < n; ++c) {
     const auto name = static_cast<size_t>(names_[c]);
-    if (name < past.present.size()) present[c] = past.present[name];
-    if (names_[c] == past.category && present[c] == 0) present[c] = -1;
+    int& instances = presence.instances[c];
+    if (name < past.present.size()) instances = past.present[name];
+    if (names_[c] == past.category && instances == 0) instances = Presence::kNotRecorded;
+    if (instances == 0) presence.there[c] = 0;
   }
 }
 
-std::vector<int> Tasks::Present(const Situation& situation) const {
-  std::vector<int> present(names_.size(), 0);
-  for (const Instance& object : situation.objects) {
-    const auto found = std::find(names_.begin(), names_.end(), object.category);
-    if (found != names_.end()) ++present[static_cast<size_t>(found - names_.begin())];
+Presence Tasks::Look(const Situation& situation) const {
+  Presence presence;
+  for (const int name : names_) {
+    const auto instances =
+        std::count_if(situation.objects.begin(), situation.objects.end(),
+                      [name](const Instance& object) { return object.category == name; });
+    presence.instances.push_back(static_cast<int>(instances));
+    presence.there.push_back(instances > 0 ? 1 : 0);
   }
-  return present;
+  return presence;
 }
 
 }  // namespace beckon::intention

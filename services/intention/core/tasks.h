@@ -8,6 +8,13 @@
 
 namespace beckon::intention {
 
+/// What is on the table, by category as numbered by Tasks.
+struct Presence {
+  static constexpr int kNotRecorded = -1;
+  std::vector<int> instances;
+  std::vector<double> there;  // 1 where there is an instance or it was not recorded, else 0
+};
+
 /// A task is an action with a category of object. Tasks, categories and actions are numbered
 /// densely here, the tasks of a category one after another; tasks that are neither in the scene nor
 /// were ever wanted do not matter.
@@ -27,10 +34,9 @@ class Tasks {
     return number_[static_cast<size_t>(category * kMaxActions + action)];
   }
 
-  /// Instances on the table, by category as numbered here; where they were not recorded -1: it may
-  /// have been there. What was wanted was there.
-  void Present(const PastSession& past, std::vector<int>& present) const;
-  std::vector<int> Present(const Situation& situation) const;
+  /// What was wanted was there.
+  void Look(const PastSession& past, Presence& presence) const;
+  Presence Look(const Situation& situation) const;
 
  private:
   std::vector<int> names_;  // of categories: index in Affordances
