@@ -4,6 +4,7 @@
 #include <random>
 
 #include "services/intention/core/answer_errors.h"
+#include "services/intention/core/simulated_decoder.h"
 
 namespace beckon::intention {
 namespace {
@@ -11,13 +12,22 @@ namespace {
 /// Uniform in [0, 1), the same on every platform.
 double Uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
-/// What a user who wants `wanted` answers, slips included.
-int Answer(const Question& question, const Pair& wanted, double flip, std::mt19937_64& random) {
+/// What is heard of a user who wants `wanted`, a likelihood an answer: a press, slips included, or
+/// what a decoder makes of it.
+std::vector<double> Answer(const Question& question, const Pair& wanted, InterfaceKind kind,
+                           double flip, std::mt19937_64& random) {
   const int meant = question.Meant(wanted);
-  if (Uniform(random) >= flip) return meant;
+  if (kind == InterfaceKind::kVector)
+    return DecodedLikelihoods(question.answers(), meant, flip, random);
+  std::vector<double> heard(static_cast<size_t>(question.answers()), 0.0);
   const int others = question.answers() - 1;
-  const int slip = others == 1 ? 0 : static_cast<int>(random() % static_cast<uint64_t>(others));
-  return slip < meant ? slip : slip + 1;
+  int said = meant;
+  if (Uniform(random) < flip) {
+    const int slip = others == 1 ? 0 : static_cast<int>(random() % static_cast<uint64_t>(others));
+    said = slip < meant ? slip : slip + 1;
+  }
+  heard[static_cast<size_t>(said)] = 1;
+  return heard;
 }
 
 }  // namespace
@@ -67,12 +77,12 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
     outcome.compute_us += now_us_() - started;
     started = now_us_();
     if (!question) break;
-    const int answer = Answer(*question, situation.pairs[want], config_.flip, random);
+    const auto heard =
+        Answer(*question, situation.pairs[want], interface.kind, config_.flip, random);
+    const int answer = SaidAnswer(heard);
     said.push_back({*question, answer});
     ++outcome.questions;
     outcome.seconds += interface.Seconds(question->answers(), answer);
-    std::vector<double> heard(static_cast<size_t>(question->answers()), 0.0);
-    heard[static_cast<size_t>(answer)] = 1;
     started = now_us_();
     dialogue->Hear(*question, interface.errors.Hear(heard));
     if (dialogue->Accepted()) break;

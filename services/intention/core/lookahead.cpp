@@ -10,10 +10,9 @@
 namespace beckon::intention {
 namespace {
 
-/// Followed a second step: at most so many questions, and no more answers in all than this, but for
-/// those of the first two.
+/// Followed a second step: at most so many questions, with no more answers in all than this.
 constexpr size_t kFollowed = 4;
-constexpr int kMostAnswers = 24;
+constexpr int kMostAnswers = 10;
 /// Dearer ones, in questions, are not followed.
 constexpr double kDearer = 0.1;
 /// Dearer ones, by proportion, are taken where they are easier to understand.
@@ -54,7 +53,9 @@ class Lookahead {
     if (near.best().empty()) return std::nullopt;
     const PricedQuestion* best = nullptr;
     double cheapest = 0, chosen = 0;
-    for (const PricedQuestion& candidate : Worthwhile(near.best())) {
+    const auto followed = Worthwhile(near.best());
+    if (followed.size() < 2) return Found(near.best().front(), near.best().front().cost);
+    for (const PricedQuestion& candidate : followed) {
       const double cost = Follow(candidate.AsQuestion());
       const bool better = best == nullptr || (Difficulty(candidate) < Difficulty(*best)
                                                   ? cost <= cheapest * (1 + kSame)
@@ -64,13 +65,16 @@ class Lookahead {
       best = &candidate;
       chosen = cost;
     }
-    const Question question = best->AsQuestion();
-    const double total = Sum();
-    const double rest = chosen / total - SecondsOf(question) / total;
-    return Choice{question, 1 + rest / cost_.seconds(), chosen / total, priced_};
+    return Found(*best, chosen);
   }
 
  private:
+  Choice Found(const PricedQuestion& priced, double cost) const {
+    const Question question = priced.AsQuestion();
+    const double total = Sum(), after = cost - SecondsOf(question);
+    return {question, 1 + after / total / cost_.seconds(), cost / total, priced_};
+  }
+
   /// Those that a second step is looked at for.
   std::span<const PricedQuestion> Worthwhile(const std::vector<PricedQuestion>& best) const {
     const double limit = best.front().cost + kDearer * cost_.seconds() * Sum();
@@ -78,7 +82,7 @@ class Lookahead {
     int answers = 0;
     while (n < best.size() && best[n].cost <= limit) {
       answers += best[n].AsQuestion().answers();
-      if (n > 1 && answers > kMostAnswers) break;
+      if (answers > kMostAnswers) break;
       ++n;
     }
     return std::span(best).first(n);
@@ -92,14 +96,13 @@ class Lookahead {
 
   /// Weighs the candidates by an answer; returns their sum.
   double Hear(const Question& question, int said, std::vector<Mass>& pairs, Mass& none) const {
-    const AnswerWeight weight = cost_.Weigh(question.answers(), said);
-    const double log_meant = weight.meant > 0 ? std::log2(weight.meant) : 0;
-    const double log_other = weight.other > 0 ? std::log2(weight.other) : 0;
+    const AnswerWeight& weight = cost_.Weigh(question.answers(), said);
     double sum = 0;
     const auto weigh = [&](const Mass& mass, bool meant) {
       const double w = meant ? weight.meant : weight.other;
+      const double w_log_w = meant ? weight.meant_log_meant : weight.other_log_other;
       sum += w * mass.p;
-      return Mass{w * mass.p, w * (mass.p_log_p + mass.p * (meant ? log_meant : log_other))};
+      return Mass{w * mass.p, w * mass.p_log_p + mass.p * w_log_w};
     };
     for (size_t i = 0; i < pairs_.size(); ++i)
       pairs[i] =

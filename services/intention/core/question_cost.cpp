@@ -19,6 +19,12 @@ double MeanSeconds(const Interface& interface, int answers) {
   return (interface.Seconds(answers, 0) + interface.Seconds(answers, answers - 1)) / 2;
 }
 
+AnswerWeight WeightOf(const ErrorModel& errors, int answers, int said) {
+  const double meant = errors.Probability(0, answers, said, said);
+  const double other = errors.Probability(0, answers, said == 0 ? 1 : 0, said);
+  return {meant, other, PLogP(meant), PLogP(other)};
+}
+
 }  // namespace
 
 Mass Mass::Of(double p) { return {p, PLogP(p)}; }
@@ -32,12 +38,15 @@ double Capacity(int answers, const ErrorRates& rates) {
 QuestionCost::QuestionCost(const Interface& interface, const ErrorRates& rates,
                            double accept_posterior)
     : interface_(interface),
-      errors_(ErrorModel::Exact(rates)),
       accept_posterior_(accept_posterior),
       seconds_(MeanSeconds(interface, 2)),
       capacity_(Capacity(2, rates)),
       confirming_(interface.Seconds(2, 0)) {
+  const ErrorModel errors = ErrorModel::Exact(rates);
+  yes_ = WeightOf(errors, 2, 0);
+  no_ = WeightOf(errors, 2, 1);
   for (int answers = 3; interface.Choices() && answers <= interface.max_options; ++answers) {
+    choices_.push_back(WeightOf(errors, answers, 0));
     const double seconds = MeanSeconds(interface, answers), bits = Capacity(answers, rates);
     if (bits / seconds <= capacity_ / seconds_) continue;
     seconds_ = seconds;
@@ -49,11 +58,6 @@ double QuestionCost::Remaining(double entropy_bits) const {
   const double questions = entropy_bits / capacity_;
   const double done = std::exp(-1.6 * questions);
   return seconds_ * (questions + 0.05 * (1 - done)) + confirming_ * done;
-}
-
-AnswerWeight QuestionCost::Weigh(int answers, int said) const {
-  return {errors_.Probability(0, answers, said, said),
-          errors_.Probability(0, answers, said == 0 ? 1 : 0, said)};
 }
 
 bool QuestionCost::Ends(const AnswerWeight& weight, double p, double total) const {
@@ -68,8 +72,8 @@ double QuestionCost::Left(const Mass& total, const Mass& in, const AnswerWeight&
   if (z <= 0) return 0;
   if (accepts && Ends(weight, in.p, total.p)) return z * seconds;
   // Of q log2 q with q = meant p inside, other p outside.
-  double sum = weight.meant * in.p_log_p + in.p * PLogP(weight.meant);
-  if (weight.other > 0) sum += weight.other * out.p_log_p + out.p * PLogP(weight.other);
+  const double sum = weight.meant * in.p_log_p + in.p * weight.meant_log_meant +
+                     weight.other * out.p_log_p + out.p * weight.other_log_other;
   return z * (seconds + Remaining(std::max(0.0, std::log2(z) - sum / z)));
 }
 
@@ -77,12 +81,10 @@ double QuestionCost::Of(const Mass& total, std::span<const Option> options) cons
   const int none = static_cast<int>(options.size()), answers = none + 1;
   Mass left = total;
   double cost = 0;
-  AnswerWeight weight;
   for (int i = 0; i < none; ++i) {
-    if (i < 2) weight = Weigh(answers, i);
     left = left - options[i].mass;
-    cost +=
-        Left(total, options[i].mass, weight, options[i].accepts, interface_.Seconds(answers, i));
+    cost += Left(total, options[i].mass, Weigh(answers, i), options[i].accepts,
+                 interface_.Seconds(answers, i));
   }
   return cost + Left(total, left, Weigh(answers, none), false, interface_.Seconds(answers, none));
 }

@@ -27,6 +27,8 @@ double Capacity(int answers, const ErrorRates& rates);
 struct AnswerWeight {
   double meant = 1;  // from those who meant it
   double other = 0;  // from those who meant another answer
+  double meant_log_meant = 0;
+  double other_log_other = 0;
 };
 
 /// At an interface whose answers are wrong at known rates. Costs are weighed by the probability of
@@ -48,7 +50,9 @@ class QuestionCost {
   /// Of a question with these options, which are disjoint, where `total` is the mass of all.
   double Of(const Mass& total, std::span<const Option> options) const;
   /// How an answer of such a question weighs the candidates.
-  AnswerWeight Weigh(int answers, int said) const;
+  const AnswerWeight& Weigh(int answers, int said) const {
+    return answers > 2 ? choices_[static_cast<size_t>(answers) - 3] : said == 0 ? yes_ : no_;
+  }
   /// Whether a yes or a press for a pair of `p` of `total` ends the session.
   bool Ends(const AnswerWeight& weight, double p, double total) const;
 
@@ -61,8 +65,9 @@ class QuestionCost {
               double seconds) const;
 
   const Interface& interface_;
-  const ErrorModel errors_;
   const double accept_posterior_;
+  AnswerWeight yes_, no_;
+  std::vector<AnswerWeight> choices_;  // of any answer, by number of answers from 3 on
   double seconds_ = 1;
   double capacity_ = 1;
   double confirming_ = 1;

@@ -8,7 +8,7 @@ namespace beckon::intention {
 namespace {
 
 /// Of the whole: less tells nothing.
-constexpr double kNothing = 1e-12;
+constexpr double kNothing = 1e-6;
 
 uint64_t Bit(int i) { return uint64_t{1} << i; }
 
