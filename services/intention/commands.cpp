@@ -51,6 +51,12 @@ CommandLine::CommandLine(CLI::App& app) {
       ->check(CLI::Range(0.0, 0.5));
   evaluate_command_->add_option("--lambda", evaluate_.lambda, "Learning rate of oain (default: 1)")
       ->check(CLI::Range(0.001, 1000.0));
+  evaluate_command_
+      ->add_option("--explain", evaluate_.explain,
+                   "Tell every session question by question (default: on standard output)")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str("-");
   evaluate_command_->add_option("--seed", evaluate_.config.seed, "Of ties and wrong answers");
   AddInterfaceOptions(*evaluate_command_, evaluate_.config.interface);
   simulate_command_ = AddSimulateCommand(app, simulate_);

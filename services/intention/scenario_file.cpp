@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "services/intention/session_trace.h"
 
 #include "services/intention/json_lines.h"
 #include "services/intention/scenario_line.h"
@@ -101,16 +104,26 @@ Status Evaluate(const EvaluateOptions& options, const Affordances& affordances) 
   if (!lines) return lines.error();
   std::ofstream out(options.jsonl);
   if (!out) return Error{options.jsonl + ": cannot write the result; check --jsonl"};
+  std::ofstream explained;
+  if (!options.explain.empty() && options.explain != "-") {
+    explained.open(options.explain);
+    if (!explained) return Error{options.explain + ": cannot be written; check --explain"};
+  }
+  SessionTrace trace(affordances, options.explain == "-" ? std::cout : explained);
+  SessionWatcher* const watcher = options.explain.empty() ? nullptr : &trace;
   Evaluation evaluation(affordances, **policy, options.config, NowMicroseconds);
   std::map<std::string, int> sessions;
   Totals totals;
   for (const ScenarioLine& line : *lines) {
-    const SessionOutcome outcome = evaluation.Live(line.session);
+    const SessionOutcome outcome = evaluation.Live(line.session, watcher);
     totals.Add(outcome);
     out << OutputLine(line, outcome, ++sessions[line.session.user], affordances).dump() << '\n';
   }
   out.flush();
   if (!out) return Error{options.jsonl + ": could not be written to the end; is the disk full?"};
+  std::cout.flush();
+  explained.flush();
+  if (!explained) return Error{options.explain + ": could not be written to the end"};
   totals.Print();
   return {};
 }

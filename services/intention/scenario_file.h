@@ -26,6 +26,7 @@ struct EvaluateOptions {
   std::string queries = "all";  // or "aof": action, object and full queries only
   double lambda = 1;            // learning rate of oain
   std::string jsonl;            // output file
+  std::string explain;          // where each session is told; "-": standard output; empty: nowhere
   EvaluationConfig config;
 };
 

@@ -98,6 +98,42 @@ TEST_F(CommandsTest, EvaluateWritesALineASession) {
   EXPECT_LE(out[1]["posterior"].get<double>(), 1);
 }
 
+TEST_F(CommandsTest, EvaluateCountsTheSecondsOfAnInterface) {
+  const std::string scenario = Write("s.jsonl", kGood);
+  const auto first = [&] {
+    std::istringstream lines(Read(folder / "out.jsonl"));
+    std::string line;
+    std::getline(lines, line);
+    return nlohmann::json::parse(line);
+  };
+  ASSERT_EQ(Evaluate(scenario), "");
+  EXPECT_EQ(first()["seconds"], first()["questions"]);
+  const int questions = first()["questions"];
+  ASSERT_EQ(Evaluate(scenario, {"--interface", "choice", "--max-options", "8",
+                                "--seconds-per-question", "3", "--seconds-per-option", "0.5"}),
+            "");
+  EXPECT_LT(first()["questions"], questions);
+  EXPECT_GE(first()["seconds"], 3 + 2 * 0.5);
+  EXPECT_NE(Evaluate(scenario, {"--interface", "telepathy"}), "");
+  EXPECT_NE(Evaluate(scenario, {"--max-options", "1"}), "");
+  EXPECT_NE(Evaluate(scenario, {"--seconds-per-question", "0"}), "");
+}
+
+TEST_F(CommandsTest, RegretIsOfNoSceneNegative) {
+  ASSERT_EQ(Run({"regret", "--scenes", "2", "--seed", "5", "--jsonl", folder / "r.jsonl"}), "");
+  std::istringstream lines(Read(folder / "r.jsonl"));
+  int n = 0;
+  for (std::string line; std::getline(lines, line); ++n) {
+    const auto scene = nlohmann::json::parse(line);
+    EXPECT_GE(scene["seconds"].get<double>(), scene["best_seconds"].get<double>() - 1e-9) << line;
+    EXPECT_GE(scene["seconds"].get<double>(), scene["code_questions"].get<double>() - 1e-9);
+  }
+  EXPECT_EQ(n, 2 * 2 * 4 * 2);  // scenes, families, distributions, sizes
+  EXPECT_NE(Run({"regret", "--scenes", "0"}), "");
+  EXPECT_NE(Run({"regret", "--jsonl", (folder / "absent") + "/r.jsonl"}).find("--jsonl"),
+            std::string::npos);
+}
+
 TEST_F(CommandsTest, MalformedScenariosNameTheLine) {
   const auto message = [&](std::string line) {
     return Evaluate(Write("s.jsonl", std::string(kGood) + "\n" + line + "\n"));
@@ -176,6 +212,15 @@ TEST_F(CommandsTest, ConfigurationIsStrict) {
       Run({"--check-config", "--config", Write("bad.toml", "polcy = \"oain\"\n")}).find("polcy"),
       std::string::npos);
   EXPECT_NE(Run({"--check-config", "--config", Write("bad.toml", "policy = \"count\"\n")}), "");
+}
+
+TEST_F(CommandsTest, ExplainsSessionsInAFile) {
+  const std::string scenario = Write("s.jsonl", std::string(kGood) + "\n");
+  const std::string file = folder / "explained.txt";
+  EXPECT_EQ(Evaluate(scenario, {"--explain", file}), "");
+  EXPECT_EQ(Read(file).find("u, session 1: wants \"Open the box\""), 0u) << Read(file);
+  EXPECT_EQ(Evaluate(scenario, {"--explain=/nowhere/x"}),
+            "/nowhere/x: cannot be written; check --explain");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ Interface Evaluation::InterfaceOf(const User& user) const {
   return interface;
 }
 
-SessionOutcome Evaluation::Live(const ScenarioSession& session) {
+SessionOutcome Evaluation::Live(const ScenarioSession& session, SessionWatcher* watcher) {
   User& user = Find(session.user);
   const uint64_t seed = config_.seed * 1'000'003 + sessions_++;
   std::mt19937_64 random(seed);
@@ -72,6 +72,10 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
   double started = now_us_();
   const Interface interface = InterfaceOf(user);
   const auto dialogue = policy_.Begin(situation, user.history, interface, seed);
+  outcome.compute_us += now_us_() - started;
+  const SessionView view{session, situation, user.history, interface, want};
+  if (watcher != nullptr) watcher->Begun(view, dialogue->CurrentBelief());
+  started = now_us_();
   while (outcome.questions < config_.most_questions) {
     const auto question = dialogue->Ask();
     outcome.compute_us += now_us_() - started;
@@ -83,8 +87,13 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
     said.push_back({*question, answer});
     ++outcome.questions;
     outcome.seconds += interface.Seconds(question->answers(), answer);
+    const Belief before = watcher != nullptr ? dialogue->CurrentBelief() : Belief();
     started = now_us_();
     dialogue->Hear(*question, interface.errors.Hear(heard));
+    outcome.compute_us += now_us_() - started;
+    if (watcher != nullptr)
+      watcher->Answered(view, {*question, before, answer, dialogue->CurrentBelief()});
+    started = now_us_();
     if (dialogue->Accepted()) break;
   }
   outcome.compute_us += now_us_() - started;
@@ -102,8 +111,9 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session) {
       Count(learnt.answers[""], s.question.answers(), s.question.Meant(pair), s.answer);
     outcome.answered = learnt;
     outcome.correct = *accepted == want;
-    user.history.push_back(learnt);
   }
+  if (watcher != nullptr) watcher->Ended(view, outcome);
+  if (outcome.answered) user.history.push_back(*outcome.answered);
   return outcome;
 }
 

@@ -40,6 +40,31 @@ struct SessionOutcome {
   double compute_us = 0;  // spent in the policy
 };
 
+/// A session that is being lived.
+struct SessionView {
+  const ScenarioSession& session;
+  const Situation& situation;
+  const UserHistory& history;  // before it
+  const Interface& interface;
+  int wanted;  // index in situation.pairs
+};
+
+struct AnsweredQuestion {
+  Question question;
+  Belief before;
+  int answer = 0;
+  Belief after;
+};
+
+/// Looks on. What it does is not counted as the policy's time.
+class SessionWatcher {
+ public:
+  virtual ~SessionWatcher() = default;
+  virtual void Begun(const SessionView& view, const Belief& belief) = 0;
+  virtual void Answered(const SessionView& view, const AnsweredQuestion& answered) = 0;
+  virtual void Ended(const SessionView& view, const SessionOutcome& outcome) = 0;
+};
+
 /// Users start fresh and live their sessions in order; what was accepted is learnt, right or wrong.
 /// `now_us` is a stopwatch.
 class Evaluation {
@@ -47,8 +72,9 @@ class Evaluation {
   Evaluation(const Affordances& affordances, const Policy& policy, const EvaluationConfig& config,
              std::function<double()> now_us);
 
-  /// The next line of the scenario. The wanted pair must be among the scene's.
-  SessionOutcome Live(const ScenarioSession& session);
+  /// The next line of the scenario. The wanted pair must be among the scene's. `watcher` may be
+  /// null.
+  SessionOutcome Live(const ScenarioSession& session, SessionWatcher* watcher = nullptr);
 
  private:
   struct User {
