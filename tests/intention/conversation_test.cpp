@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "tests/intention/conversation_fixture.h"
 
 namespace beckon::intention {
@@ -91,6 +93,23 @@ TEST_F(ConversationTest, RefusesStaleForeignAndMisshapenAnswers) {
   EXPECT_EQ(desk.queries.back().id, second.id);
   EXPECT_EQ(desk.conversation->counters().answers, 1);
   EXPECT_EQ(desk.refusals.size(), 3u);
+}
+
+TEST_F(ConversationTest, RefusesHostileEvidence) {
+  Begin();
+  const msg::Query query = desk.queries.back();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  int64_t refused = desk.conversation->counters().refused;
+  for (const std::vector<double>& bad : std::vector<std::vector<double>>{
+           {}, {1}, {1, 0, 0}, {0, 0}, {1, -1}, {nan, 0}, {infinity, 1}}) {
+    msg::Answer answer = desk.AnswerTo(query, 0);
+    answer.likelihoods = bad;
+    desk.Take(desk.conversation->OnAnswer(answer, desk.now));
+    EXPECT_EQ(desk.conversation->counters().refused, ++refused);
+  }
+  EXPECT_EQ(desk.conversation->counters().answers, 0);
+  EXPECT_EQ(desk.queries.back().id, query.id);
 }
 
 TEST_F(ConversationTest, TaskIsRepeatedUntilAcknowledged) {

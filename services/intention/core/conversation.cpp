@@ -105,10 +105,9 @@ Actions Conversation::OnAnswer(const msg::Answer& answer, Utime now) {
     return Taken();
   }
   Talk& talk = *found->second;
-  if (answer.likelihoods.size() != talk.query->options.size()) {
-    Refuse(kAnswerChannel, "answer with " + std::to_string(answer.likelihoods.size()) +
-                               " likelihoods to a query with " +
-                               std::to_string(talk.query->options.size()) + " options");
+  if (Status right = CheckLikelihoods(answer.likelihoods, talk.query->options.size()); !right) {
+    Refuse(kAnswerChannel,
+           "answer to query " + std::to_string(answer.query_id) + ": " + right.error().message);
     return Taken();
   }
   ++counters_.answers;

@@ -89,7 +89,8 @@ ErrorModel ErrorModel::Unknown() {
 
 ErrorModel ErrorModel::Announced(ErrorRates rates,
                                  const std::vector<std::vector<float>>& confusion) {
-  if (rates.false_yes <= 0 && rates.false_no <= 0 && confusion.empty()) return Exact({});
+  const bool confuses = !confusion.empty() && MeanError(confusion) > 0;
+  if (rates.false_yes <= 0 && rates.false_no <= 0 && !confuses) return Exact({});
   constexpr Levels kFactors = {{{0.125, 0.125, 0.05},
                                 {0.35, 0.35, 0.15},
                                 {0.7, 0.7, 0.25},
@@ -102,7 +103,7 @@ ErrorModel ErrorModel::Announced(ErrorRates rates,
                                 {2, 0.35, 0.02}}};
   ErrorModel model;
   if (rates.false_yes <= 0 && rates.false_no <= 0)
-    rates.false_yes = rates.false_no = std::max(kLeastConfusion, MeanError(confusion) / 2);
+    rates.false_yes = rates.false_no = MeanError(confusion) / 2;
   rates = {std::max(rates.false_yes, kLeastShare * rates.false_no),
            std::max(rates.false_no, kLeastShare * rates.false_yes)};
   for (int i = 0; i < kMeaningful; ++i) {

@@ -21,7 +21,7 @@ const DeviceModel& Interview::Device(const std::string& device) const {
 Interface Interview::InterfaceOf(const std::string& device) const {
   const DeviceModel& model = Device(device);
   const ErrorModel start =
-      model.announced ? ErrorModel::Announced(model.rates) : ErrorModel::Unknown();
+      model.announced ? ErrorModel::Announced(model.rates, model.confusion) : ErrorModel::Unknown();
   return {model.kind, model.max_options, model.seconds_per_question, model.seconds_per_option,
           start.Learnt(PastAnswers(input_.history, device))};
 }
