@@ -20,10 +20,11 @@ class Habit {
 
   /// P(task | what is there) for every task; 0 for those that are not.
   std::vector<double> Predict(const std::vector<double>& there) const;
-  /// Of one task that is there; Learn may follow for the same.
+  /// Of one task that is there.
   double Probability(int task, const std::vector<double>& there);
   /// The task was wanted. `habit` is the probability that a want comes from habit, `other` that it
-  /// does not and is this one: only as much is learnt as habit explains.
+  /// does not and is this one: only as much is learnt as habit explains. Just before, Probability
+  /// must have been asked of the same task.
   void Learn(int task, const std::vector<double>& there, double habit, double other);
 
  private:
