@@ -130,7 +130,7 @@ TEST_F(CommandsTest, RegretIsOfNoSceneNegative) {
   }
   EXPECT_EQ(n, 2 * 2 * 4 * 2);  // scenes, families, distributions, sizes
   EXPECT_NE(Run({"regret", "--scenes", "0"}), "");
-  EXPECT_NE(Run({"regret", "--jsonl", (folder / "absent") + "/r.jsonl"}).find("--jsonl"),
+  EXPECT_NE(Run({"regret", "--jsonl", folder / "absent/r.jsonl"}).find("--jsonl"),
             std::string::npos);
 }
 
