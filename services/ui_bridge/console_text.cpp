@@ -21,13 +21,24 @@ std::string Normalised(const std::string& line) {
 }
 
 bool IsYesNo(const msg::Query& query) {
-  return query.options.size() == 2 && query.kind != msg::QueryKind::kChoice &&
-         query.kind != msg::QueryKind::kWhatIsIt;
+  return query.kind != msg::QueryKind::kChoice && query.kind != msg::QueryKind::kWhatIsIt;
 }
 
+/// "y = yes, n = no", in the language of the question.
 std::string HowToAnswer(const msg::Query& query) {
-  return IsYesNo(query) ? "y = yes, n = no"
-                        : "1 to " + std::to_string(query.options.size()) + " = that one";
+  if (!IsYesNo(query)) return "1 to " + std::to_string(query.options.size()) + " = that one";
+  std::string text;
+  for (const auto& option : query.options) {
+    const std::string word = Normalised(option.text);
+    text += (text.empty() ? "" : ", ") + word.substr(0, 1) + " = " + word;
+  }
+  return text;
+}
+
+/// Whether a word is an option's text, or the first letter of "Yes" or "No".
+bool Says(const msg::Query& query, const msg::Option& option, const std::string& word) {
+  const std::string text = Normalised(option.text);
+  return word == text || (IsYesNo(query) && word == text.substr(0, 1));
 }
 
 /// "SprayCan" -> "spray can".
@@ -98,9 +109,8 @@ ConsoleInput ParseLine(const std::string& line, const msg::Query* query) {
   const std::string text = Normalised(line);
   if (const auto word = kWords.find(text); word != kWords.end()) return {word->second, 0, {}};
   if (query == nullptr) return Unknown(line, query);
-  if (IsYesNo(*query)) {
-    if (text == "y" || text == "yes") return {Kind::kOption, 0, {}};
-    if (text == "n" || text == "no") return {Kind::kOption, 1, {}};
+  for (size_t i = 0; i < query->options.size(); ++i) {
+    if (Says(*query, query->options[i], text)) return {Kind::kOption, i, {}};
   }
   size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

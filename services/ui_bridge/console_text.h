@@ -28,8 +28,9 @@ struct ConsoleInput {
   std::string complaint;  // of kUnknown, for the user
 };
 
-/// Understands y/n, an option's number from 1, u, 0, s, r, q, ?, and their words, in any case; an
-/// empty line is kNothing. `query` is the question that stands, or null.
+/// Understands y/n (the first letters of yes and no in the question's language), an option's number
+/// from 1 or its text, u, 0, s, r, q, ?, and their words, in any case; an empty line is kNothing.
+/// `query` is the question that stands, or null.
 ConsoleInput ParseLine(const std::string& line, const msg::Query* query);
 
 /// What the user said an object is, by object id.

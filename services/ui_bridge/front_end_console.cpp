@@ -26,6 +26,7 @@ struct ConsoleConfig {
   double seconds_per_option = 0.7;  // s, more for each option
   double false_yes = 0;             // 0..0.5, chance of "yes" typed where "no" is meant
   double false_no = 0;              // 0..0.5
+  std::string kind = "choice";      // or "yesno": no choices among tasks
   int max_options = 12;             // shown at once
 };
 
@@ -43,7 +44,8 @@ class ConsoleFrontEnd final : public FrontEnd {
 
   msg::Interface Announce() const override {
     msg::Interface interface;
-    interface.kind = msg::InterfaceKind::kChoice;
+    interface.kind =
+        config_.kind == "yesno" ? msg::InterfaceKind::kYesNo : msg::InterfaceKind::kChoice;
     interface.max_options = config_.max_options;
     interface.seconds_per_question = static_cast<float>(config_.seconds_per_question);
     interface.seconds_per_option = static_cast<float>(config_.seconds_per_option);
@@ -285,6 +287,7 @@ class ConsoleFactory final : public FrontEndFactory {
     table.Get("seconds_per_option", config_.seconds_per_option, 0, 3600);
     table.Get("false_yes", config_.false_yes, 0, 0.5);
     table.Get("false_no", config_.false_no, 0, 0.5);
+    table.Get("kind", config_.kind, {"choice", "yesno"});
     table.Get("max_options", config_.max_options, 2, 64);
   }
 

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,10 +15,20 @@ namespace beckon::ui_bridge {
 namespace {
 
 constexpr Utime kLookAgain_us = 100'000;
-constexpr int kMaxLooks = 100;  // for scene and truth, before it gives up
+constexpr int kMaxLooks = 100;       // for scene and truth, before it gives up
+constexpr double kVectorSure = 0.9;  // share of the likelihood that a vector gives the option meant
+
+/// What it announces, besides its rate of errors.
+struct SimulatedInterface {
+  msg::InterfaceKind kind = msg::InterfaceKind::kYesNo;
+  int max_options = 12;
+  float seconds_per_question = 1;
+  float seconds_per_option = 0;
+};
 
 struct SimulatedConfig {
   SimulatedUserConfig user;
+  SimulatedInterface interface;
   std::string truth_file;
   int sessions = 1;
   double think_s = 0;
@@ -31,9 +42,11 @@ class SimulatedFrontEnd final : public FrontEnd {
 
   msg::Interface Announce() const override {
     msg::Interface interface;
-    interface.kind = msg::InterfaceKind::kYesNo;
-    interface.max_options = 12;
-    interface.seconds_per_question = 1;
+    interface.kind = config_.interface.kind;
+    interface.max_options = config_.interface.max_options;
+    interface.seconds_per_question = config_.interface.seconds_per_question;
+    interface.seconds_per_option = config_.interface.seconds_per_option;
+    interface.false_yes = interface.false_no = static_cast<float>(std::min(config_.user.flip, 0.5));
     return interface;
   }
 
@@ -74,6 +87,14 @@ class SimulatedFrontEnd final : public FrontEnd {
   }
 
  private:
+  /// A press is one-hot; a decoder of vectors is never quite sure.
+  std::vector<double> Likelihoods(size_t option, size_t n) const {
+    if (config_.interface.kind != msg::InterfaceKind::kVector) return OneHot(option, n);
+    std::vector<double> likelihoods(n, (1 - kVectorSure) / static_cast<double>(n - 1));
+    likelihoods[option] = kVectorSure;
+    return likelihoods;
+  }
+
   void Think(Utime delay_us) {
     CancelTimer();
     timer_ = setup_.loop.After(delay_us, [this] {
@@ -92,7 +113,7 @@ class SimulatedFrontEnd final : public FrontEnd {
     if (!LookAtTruth()) return;
     const Response response = user_.Respond(*query_);
     if (const auto* choice = std::get_if<Choose>(&response)) {
-      setup_.sink.Answer(query_->id, OneHot(choice->option, query_->options.size()));
+      setup_.sink.Answer(query_->id, Likelihoods(choice->option, query_->options.size()));
     } else if (std::holds_alternative<RefuseAll>(response)) {
       setup_.sink.Request(msg::SessionKind::kRequestNoneOfThese);
     } else if (const auto* give_up = std::get_if<GiveUp>(&response)) {
@@ -157,6 +178,23 @@ class SimulatedFactory final : public FrontEndFactory {
     group->add_option("--flip", config_.user.flip, "Chance that an answer comes out wrong")
         ->check(CLI::Range(0.0, 1.0));
     group->add_option("--seed", config_.user.seed, "Of those chances");
+    static const std::map<std::string, msg::InterfaceKind> kinds = {
+        {"yesno", msg::InterfaceKind::kYesNo},
+        {"choice", msg::InterfaceKind::kChoice},
+        {"scan", msg::InterfaceKind::kScan},
+        {"vector", msg::InterfaceKind::kVector}};
+    SimulatedInterface& interface = config_.interface;
+    group->add_option("--announce", interface.kind, "How it says that it is asked")
+        ->transform(CLI::CheckedTransformer(kinds).description("yesno|choice|scan|vector"));
+    group->add_option("--max-options", interface.max_options, "Options that it takes at once")
+        ->check(CLI::Range(2, 64))
+        ->capture_default_str();
+    group->add_option("--seconds-per-question", interface.seconds_per_question, "As it announces")
+        ->check(CLI::Range(0.001, 3600.0))
+        ->capture_default_str();
+    group->add_option("--seconds-per-option", interface.seconds_per_option, "As it announces")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
     group->add_option("--think", config_.think_s, "Seconds before each answer")
         ->check(CLI::Range(0.0, 3600.0));
   }

@@ -22,12 +22,37 @@ msg::Query YesNo() {
 
 msg::Query WhatIsIt() {
   msg::Query query;
+  query.kind = msg::QueryKind::kWhatIsIt;
   query.text = "What is this?";
   query.expected_questions = 1;
   query.options = {{.text = "a box", .category = "Box"},
                    {.text = "a tin", .category = "Tin"},
                    {.text = "None of these"}};
   return query;
+}
+
+TEST(ConsoleText, UnderstandsTheLanguageOfTheQuestion) {
+  auto query = YesNo();
+  query.options = {{.text = "Ja"}, {.text = "Nein"}};
+  EXPECT_EQ(ParseLine("j", &query).option, 0u);
+  EXPECT_EQ(ParseLine("NEIN", &query).option, 1u);
+  EXPECT_EQ(ParseLine("y", &query).kind, Kind::kUnknown);
+  EXPECT_NE(RenderQuestion(query, nullptr, {.brief = true}).find("j = ja, n = nein"),
+            std::string::npos);
+}
+
+TEST(ConsoleText, NumbersTheOptionsOfAChoiceAndTakesTheirTexts) {
+  msg::Query query;
+  query.kind = msg::QueryKind::kChoice;
+  query.text = "Which one?";
+  query.options = {{.text = "Open the carton", .actions = {"Open"}, .objects = {1}},
+                   {.text = "None of these"}};
+  const std::string shown = RenderQuestion(query, nullptr, {.brief = true});
+  EXPECT_NE(shown.find("  1  Open the carton\n  2  None of these\n"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("1 to 2 = that one"), std::string::npos) << shown;
+  EXPECT_EQ(ParseLine("2", &query).option, 1u);
+  EXPECT_EQ(ParseLine("open the carton", &query).option, 0u);
+  EXPECT_EQ(ParseLine("o", &query).kind, Kind::kUnknown);
 }
 
 TEST(ConsoleText, UnderstandsYesAndNoInAnyCase) {
