@@ -142,7 +142,7 @@ def plot_regret(report, groups):
             axis.plot([], [], color=colour, linewidth=6, alpha=0.7, label=f"questions of {queries}")
         axis.set(title=title, xticks=range(len(priors)), xticklabels=priors)
         axis.grid(axis="x", visible=False)
-        axis.set_ylim(bottom=min(0, axis.get_ylim()[0]))
+        axis.set_ylim(0, max(1, axis.get_ylim()[1]))
     axes[0].set_ylabel("more than at best, %")
     plots.legend_below(figure, axes[0], 2)
     return plots.save(figure, report, "regret", "Regret by prior and family of questions")
