@@ -147,5 +147,17 @@ TEST(ErrorModel, RefusesHostileLikelihoods) {
     EXPECT_FALSE(CheckLikelihoods(bad, 2).ok());
 }
 
+TEST(ErrorModel, ASoftAnswerIsDoubtedNoMoreThanItDoubtsItself) {
+  const ErrorModel model = ErrorModel::Exact({0.1, 0.1});
+  const auto odds = [&](double sure) {
+    const Evidence heard = model.Hear({sure, 1 - sure});
+    return heard.likelihood[0][0] / heard.likelihood[1][0];
+  };
+  EXPECT_NEAR(odds(1), 9, 1e-12);    // a press is wrong as often as the device is
+  EXPECT_NEAR(odds(0.8), 4, 1e-12);  // more doubtful than that: taken at its word
+  EXPECT_NEAR(odds(0.9), 9, 1e-12);
+  EXPECT_NEAR(odds(0.999), 9, 0.1);  // too sure of itself
+}
+
 }  // namespace
 }  // namespace beckon::intention

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "services/intention/core/evaluation.h"
 #include "services/intention/core/seeded_random.h"
 #include "services/intention/core/simulated_user.h"
 #include "tests/intention/fixtures.h"
@@ -181,6 +182,38 @@ TEST_F(UnreliableAnswers, AsksForAPairThatIsLikelierThanAllOthers) {
       dialogue->Hear(*question, errors.Hear(Press(question->Meant(table.pairs[want]))));
     }
     EXPECT_EQ(dialogue->Accepted(), want);
+  }
+}
+
+TEST_F(UnreliableAnswers, ChoicesEndSoonerThanYesAndNo) {
+  const auto evaluated = [&](InterfaceKind kind, int max_options) {
+    EvaluationConfig config;
+    config.flip = 0.2;
+    config.interface.kind = kind;
+    config.interface.max_options = max_options;
+    Evaluation evaluation(a, *policy, config, [] { return 0.0; });
+    SeededRandom tables(5);
+    int questions = 0;
+    for (int i = 0; i < 60; ++i) {
+      ScenarioSession session;
+      session.user = "user" + std::to_string(i);
+      session.scene = DrawTable(a, tables);
+      const Situation table = MakeSituation(a, session.scene);
+      const Pair want = table.pairs[tables.Below(table.pair_count())];
+      session.want_category = table.objects[want.object].category;
+      session.want_rank = table.objects[want.object].rank;
+      session.want_action = want.action;
+      const SessionOutcome outcome = evaluation.Live(session);
+      EXPECT_TRUE(outcome.answered);
+      questions += outcome.questions;
+    }
+    return questions;
+  };
+  const int yes_no = evaluated(InterfaceKind::kYesNo, 2);
+  for (const auto kind : {InterfaceKind::kChoice, InterfaceKind::kScan, InterfaceKind::kVector}) {
+    const int few = evaluated(kind, 4), many = evaluated(kind, 8);
+    EXPECT_LT(few, yes_no);
+    EXPECT_LT(many, few);
   }
 }
 

@@ -18,8 +18,8 @@ constexpr double kNoneIsSure = 0.9;
 /// answers a new user is asked 28 questions on average, one in a thousand 93.
 constexpr double kUnclearIsSure = 0.99;
 constexpr int kMostAnswers = 120;
-/// A pair that is likelier than all others together is asked for: of all yes/no questions it tells
-/// most, and its yes is needed in any case.
+/// A pair that is likelier than all others together is asked for, by itself or in a choice: of all
+/// yes/no questions it tells most, and saying so is needed in any case.
 constexpr double kAskFor = 0.5;
 
 /// Bits.
@@ -54,10 +54,11 @@ class AdaptiveDialogue : public Dialogue {
       const std::vector<double> posterior = noisy_ ? IfAnswersMean() : posterior_;
       choice_ = ChooseQuestion(situation_, posterior, interface_, MeanRates(), config_.families,
                                config_.accept_posterior);
-      if (choice_ && noisy_ && interface_.kind == InterfaceKind::kYesNo) {
+      if (choice_ && noisy_) {
         const auto best = std::max_element(posterior.begin(), posterior.end());
-        if (*best > kAskFor) {
-          const int pair = Confirming(static_cast<int>(best - posterior.begin()));
+        const int likeliest = static_cast<int>(best - posterior.begin());
+        if (*best > kAskFor && !ChoiceWith(choice_->question, likeliest)) {
+          const int pair = Confirming(likeliest);
           choice_->question = AskPair(situation_, pair);
         }
       }
@@ -138,6 +139,12 @@ class AdaptiveDialogue : public Dialogue {
     if (meaningless > kUnclearIsSure || (noisy_ && heard_ >= kMostAnswers)) return Ending::kUnclear;
     if (!(possible > 0) || none_ > kNoneIsSure) return Ending::kNone;
     return Ending::kOpen;
+  }
+
+  static bool ChoiceWith(const Question& question, int pair) {
+    return question.kind == QuestionKind::kChoice &&
+           std::any_of(question.options.begin(), question.options.end(),
+                       [&](const Proposition& option) { return option.pair == pair; });
   }
 
   /// By pair, over the levels at which answers mean something: at the others no question helps.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace beckon::intention {
@@ -50,6 +51,12 @@ double LogOf(double probability) { return std::log(std::max(probability, 1e-300)
 /// log P(right and wrong answers), where a share `error` of them is wrong.
 double Term(double right, double wrong, double error) {
   return (right > 0 ? right * LogOf(1 - error) : 0) + (wrong > 0 ? wrong * LogOf(error) : 0);
+}
+
+/// What is left of a share `wrong` of wrong answers where the answer itself doubts by `doubt`: a
+/// decoder's soft answer says of itself how often it is wrong, a press does not.
+double Beyond(double wrong, double doubt) {
+  return wrong <= doubt ? 0 : (wrong - doubt) / (wrong * (1 - doubt));
 }
 
 /// Mean P(a wrong answer) of a confusion.
@@ -162,14 +169,19 @@ int SaidAnswer(const std::vector<double>& likelihoods) {
 Evidence ErrorModel::Hear(const std::vector<double>& likelihoods) const {
   const int answers = static_cast<int>(likelihoods.size());
   const double most = *std::max_element(likelihoods.begin(), likelihoods.end());
+  const double doubt = 1 - most / std::accumulate(likelihoods.begin(), likelihoods.end(), 0.0);
   Evidence evidence;
   evidence.said = SaidAnswer(likelihoods);
   evidence.likelihood.resize(likelihoods.size());
   for (int meant = 0; meant < answers; ++meant) {
     for (int level = 0; level < kLevels; ++level) {
-      double sum = 0;
-      for (int said = 0; said < answers; ++said)
-        sum += likelihoods[said] / most * Probability(level, answers, meant, said);
+      const double wrong = 1 - Probability(level, answers, meant, meant);
+      const double beyond = Means(level) ? Beyond(wrong, doubt) : 1;
+      double sum = likelihoods[meant] / most * (1 - wrong * beyond);
+      for (int said = 0; said < answers; ++said) {
+        if (said == meant) continue;
+        sum += likelihoods[said] / most * beyond * Probability(level, answers, meant, said);
+      }
       evidence.likelihood[meant][level] = sum;
     }
   }
