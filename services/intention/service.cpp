@@ -165,6 +165,9 @@ struct Service::State {
                                         {"unknown_categories", c.unknown_categories},
                                         {"tasks", c.tasks},
                                         {"tasks_expired", c.expired},
+                                        {"tasks_revoked", c.revoked},
+                                        {"confirmations_held", c.held},
+                                        {"late_scenes", c.late_scenes},
                                         {"db_rows", rows ? *rows : -1},
                                         {"question_us", question_us},
                                         {"question_us_max", question_us_max}}) {

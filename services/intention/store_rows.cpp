@@ -15,6 +15,9 @@ constexpr std::array kKinds = {QuestionKind::kAction, QuestionKind::kObject,
                                QuestionKind::kFull,   QuestionKind::kCategory,
                                QuestionKind::kSet,    QuestionKind::kChoice};
 
+constexpr char kWithdrawn[] = "withdrawn";
+constexpr char kDropped[] = "dropped";
+
 QuestionKind KindNamed(const std::string& name) {
   for (const QuestionKind kind : kKinds) {
     if (Name(kind) == name) return kind;
@@ -52,6 +55,9 @@ AnswerRecord AnswerFrom(const json& body, const std::string& session_device) {
   body.at("likelihoods").get_to(answer.likelihoods);
   answer.meant = static_cast<int>(NeedInteger(body, "meant", 0, kMaxThings));
   body.at("device").get_to(answer.device);
+  const auto fate = body.value("fate", std::string());
+  if (fate == kWithdrawn) answer.fate = AnswerFate::kWithdrawn;
+  if (fate == kDropped) answer.fate = AnswerFate::kDropped;
   const auto& likelihoods = answer.likelihoods;
   const bool right = likelihoods.size() >= 2 && likelihoods.size() <= kMaxThings + 1 &&
                      answer.meant < static_cast<int>(likelihoods.size()) &&
@@ -102,6 +108,8 @@ std::string ToBody(const SessionRecord& session) {
                                {"likelihoods", a.likelihoods},
                                {"meant", a.meant},
                                {"device", a.device}});
+    if (a.fate != AnswerFate::kStands)
+      body["answers"].back()["fate"] = a.fate == AnswerFate::kWithdrawn ? kWithdrawn : kDropped;
   }
   return body.dump();
 }

@@ -7,6 +7,8 @@ namespace beckon::ui_bridge {
 namespace {
 
 constexpr size_t kEndedKept = 32;
+/// More that are said at once are left out.
+constexpr size_t kMostChanges = 16;
 
 bool IsEvent(msg::SessionKind kind) { return kind >= msg::SessionKind::kIdle; }
 
@@ -25,7 +27,7 @@ Dialogue::Dialogue(DialogueConfig config, const Clock& clock, const Clock& stead
 void Dialogue::Tick() {
   const Utime now = steady_.Now();
   if (wanted_ && phase_ == Phase::kIdle && now >= listen_until_) BeginRequesting();
-  for (auto* repeated : {&start_, &control_}) {
+  for (auto* repeated : {&start_, &control_, &change_}) {
     if (*repeated && now >= (*repeated)->due) {
       (*repeated)->due = now + config_.repeat_us;
       output_.Send((*repeated)->message);
@@ -51,6 +53,7 @@ void Dialogue::OnQuery(const msg::Query& query) {
   answer_.reset();
   query_ = query;
   output_.Present(query);
+  HearCount(query.questions_asked);
 }
 
 void Dialogue::OnSession(const msg::Session& event) {
@@ -74,6 +77,7 @@ void Dialogue::OnSession(const msg::Session& event) {
       wanted_ = false;
       phase_ = Phase::kStopped;
       DropQuery();
+      ForgetChanges();
       return ShowOnce(event);
     default:
       break;
@@ -83,6 +87,9 @@ void Dialogue::OnSession(const msg::Session& event) {
   if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
   if (phase_ != Phase::kRunning || event.session_id != session_id_) Join(event.session_id);
   if (answer_ && query_ && event.questions > query_->questions_asked) answer_.reset();
+  // It waits for something, and asks anew when that is there.
+  if (query_ && !event.text.empty() && event.utime > query_->utime) DropQuery();
+  HearCount(event.questions);
   ShowOnce(event);
 }
 
@@ -129,6 +136,7 @@ void Dialogue::Start() {
 
 void Dialogue::Answer(int64_t query_id, const std::vector<double>& likelihoods) {
   if (phase_ != Phase::kRunning || !query_ || query_->id != query_id || cancelled_) return;
+  if (change_) return;
   msg::Answer answer;
   answer.utime = clock_.Now();
   answer.query_id = query_id;
@@ -139,10 +147,7 @@ void Dialogue::Answer(int64_t query_id, const std::vector<double>& likelihoods) 
   answer_ = {std::move(answer), steady_.Now() + config_.repeat_us};
 }
 
-// Undo and "none of these" are said once and not repeated; a lost one the user sees and says again.
-void Dialogue::Undo() {
-  if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestUndo));
-}
+void Dialogue::Undo() { Change(msg::SessionKind::kRequestUndo); }
 
 void Dialogue::NoneOfThese() {
   if (query_ && query_->kind == msg::QueryKind::kWhatIsIt) {
@@ -151,7 +156,29 @@ void Dialogue::NoneOfThese() {
     likelihoods.back() = 1;
     return Answer(query_->id, likelihoods);
   }
-  if (phase_ == Phase::kRunning) output_.Send(Request(msg::SessionKind::kRequestNoneOfThese));
+  Change(msg::SessionKind::kRequestNoneOfThese);
+}
+
+void Dialogue::Change(msg::SessionKind kind) {
+  if (phase_ != Phase::kRunning || cancelled_ || changes_.size() >= kMostChanges) return;
+  changes_.push_back(kind);
+  SendNextChange();
+}
+
+void Dialogue::SendNextChange() {
+  if (change_ || answer_ || changes_.empty()) return;
+  const msg::SessionKind kind = changes_.front();
+  changes_.pop_front();
+  const msg::Session request = Request(kind);
+  output_.Send(request);
+  // With nothing to take back no count will ever tell that it arrived.
+  const bool nothing = kind == msg::SessionKind::kRequestUndo && questions_ == 0;
+  if (!nothing) change_ = {request, steady_.Now() + config_.repeat_us};
+}
+
+void Dialogue::HearCount(int questions) {
+  if (std::exchange(questions_, questions) != questions) change_.reset();
+  SendNextChange();
 }
 
 void Dialogue::Cancel() {
@@ -160,6 +187,7 @@ void Dialogue::Cancel() {
   cancelled_ = true;
   start_.reset();
   DropQuery();
+  ForgetChanges();
   Insist(msg::SessionKind::kRequestCancel);
 }
 
@@ -180,12 +208,14 @@ void Dialogue::BeginRequesting() {
   if (phase_ != Phase::kRunning || session_id_.empty()) session_id_ = new_session_id_();
   phase_ = Phase::kRequesting;
   presented_.clear();
+  ForgetChanges();
   start_ = {Request(msg::SessionKind::kRequestStart), steady_.Now() + config_.repeat_us};
   output_.Send(start_->message);
 }
 
 void Dialogue::Join(const std::string& session_id) {
   DropQuery();
+  ForgetChanges();
   presented_.clear();
   start_.reset();
   if (session_id != session_id_ && cancelled_) {
@@ -199,6 +229,7 @@ void Dialogue::Join(const std::string& session_id) {
 
 void Dialogue::End() {
   DropQuery();
+  ForgetChanges();
   presented_.clear();
   start_.reset();
   if (control_ && control_->message.kind == msg::SessionKind::kRequestCancel) control_.reset();
@@ -208,6 +239,12 @@ void Dialogue::End() {
   if (session_id_.empty()) return;
   ended_.push_back(std::exchange(session_id_, {}));
   if (ended_.size() > kEndedKept) ended_.pop_front();
+}
+
+void Dialogue::ForgetChanges() {
+  changes_.clear();
+  change_.reset();
+  questions_ = 0;
 }
 
 void Dialogue::DropQuery() {

@@ -57,8 +57,11 @@ class Dialogue {
   /// The user wants a session: begun as soon as listening is over, none runs and nothing is
   /// stopped.
   void Start();
-  /// Evidence for the options of the question presented; ignored where another or none stands.
+  /// Evidence for the options of the question presented; ignored where another or none stands, or
+  /// where an undo is on its way.
   void Answer(int64_t query_id, const std::vector<double>& likelihoods);
+  /// Both are repeated until the number of answers shows that they arrived, one after the other and
+  /// after an answer that is on its way.
   void Undo();
   void NoneOfThese();
   void Cancel();
@@ -86,6 +89,11 @@ class Dialogue {
   void OnIdle(const msg::Session& event);
   void OnEnd(const msg::Session& event);
   void Insist(msg::SessionKind kind);
+  void Change(msg::SessionKind kind);
+  void SendNextChange();
+  void ForgetChanges();
+  /// Intention's count of the answers so far.
+  void HearCount(int questions);
   bool HasEnded(const std::string& session_id) const;
   msg::Session Request(msg::SessionKind kind) const;
 
@@ -105,6 +113,9 @@ class Dialogue {
   std::optional<Repeated<msg::Answer>> answer_;
   std::optional<Repeated<msg::Session>> start_;
   std::optional<Repeated<msg::Session>> control_;  // cancel, stop or resume
+  std::deque<msg::SessionKind> changes_;           // undo, none of these: still to be said
+  std::optional<Repeated<msg::Session>> change_;   // the one that is being said
+  int questions_ = 0;                              // answers so far, as intention counts them
   std::deque<std::string> ended_;                  // the latest sessions that are over
   std::optional<msg::Session> shown_;
   Utime heard_;  // when intention last said anything

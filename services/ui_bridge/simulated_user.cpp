@@ -6,6 +6,9 @@
 namespace beckon::ui_bridge {
 namespace {
 
+/// An object this near to where it was is the same one, whatever its id.
+constexpr double kSamePlace_m = 0.05;
+
 const msg::SceneObject* Find(const msg::Scene& scene, int id) {
   const auto found = std::ranges::find(scene.objects, id, &msg::SceneObject::id);
   return found == scene.objects.end() ? nullptr : &*found;
@@ -59,6 +62,7 @@ Response SimulatedUser::Respond(const msg::Query& query) {
     wanted_id_ = ChooseObject(*scene_);
     if (!wanted_id_) return GiveUp{WhyNoneIsWanted()};
   }
+  LookAgain();
   switch (query.kind) {
     case msg::QueryKind::kWhatIsIt:
       return SayWhatItIs(query);
@@ -67,6 +71,22 @@ Response SimulatedUser::Respond(const msg::Query& query) {
     default:
       return AnswerProposition(query);
   }
+}
+
+void SimulatedUser::LookAgain() {
+  const auto* wanted = Find(*scene_, *wanted_id_);
+  const auto away_m = [&](const msg::SceneObject& object) {
+    return (object.centroid_W - wanted->centroid_W).norm();
+  };
+  const auto& objects = newest_->objects;
+  const auto nearest = std::ranges::min_element(objects, {}, away_m);
+  if (nearest == objects.end()) return;
+  if (away_m(*nearest) <= kSamePlace_m) {
+    wanted_id_ = nearest->id;
+  } else if (Find(*newest_, *wanted_id_) == nullptr) {
+    return;
+  }
+  scene_ = newest_;
 }
 
 std::optional<int> SimulatedUser::ChooseObject(const msg::Scene& scene) const {

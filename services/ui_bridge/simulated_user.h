@@ -42,7 +42,8 @@ class SimulatedUser {
   explicit SimulatedUser(SimulatedUserConfig config);
 
   void SetTruth(SceneTruth truth) { truth_ = std::move(truth); }
-  /// The newest scene; the first known when a session's first question comes is that session's.
+  /// The newest scene. What is wanted is chosen when a session's first question comes; from then on
+  /// it is known by its place, then by its id.
   void SeeScene(const msg::Scene& scene);
   /// Call between sessions.
   void ForgetSession();
@@ -54,6 +55,8 @@ class SimulatedUser {
 
  private:
   std::optional<int> ChooseObject(const msg::Scene& scene) const;
+  /// Looks at the newest scene, where the wanted object is in it.
+  void LookAgain();
   /// Why ChooseObject found nothing.
   std::string WhyNoneIsWanted() const;
   /// What the user sees in an object; empty where it cannot say (nothing of the truth is there).
@@ -68,7 +71,7 @@ class SimulatedUser {
   std::mt19937_64 engine_;
   SceneTruth truth_;
   std::optional<msg::Scene> newest_;
-  std::optional<msg::Scene> scene_;  // of the session
+  std::optional<msg::Scene> scene_;  // that it goes by
   std::optional<int> wanted_id_;
 };
 

@@ -1,5 +1,5 @@
-// Conversations whose messages are lost, doubled, late and out of order, whose process is killed
-// and whose disk fails: what must never happen, does not.
+// Conversations whose messages are lost, doubled, late and out of order, whose table changes, whose
+// process is killed and whose disk fails: what must never happen, does not.
 #include <functional>
 #include <set>
 
@@ -11,7 +11,9 @@ namespace {
 using Kind = msg::SessionKind;
 
 constexpr int kSequences = 2000;
-constexpr int kSteps = 200;
+constexpr int kSteps = 450;
+/// Most between where a task says that its object is and where the newest scene shows it.
+constexpr double kPlace_m = 0.05;
 
 class CountingMemory : public FakeMemory {
  public:
@@ -95,11 +97,73 @@ class Sequence {
     desk_.Wait(static_cast<Utime>(1 + Below(choice == 99 ? 400 : 12)) * kSecond / 10);
   }
 
+  /// What stands on the table changes now and then; what is shown of it flickers.
   void ShowScene() {
-    msg::Scene scene = Any(scenes_);
+    if (Below(6) == 0) world_ = Any(scenes_);
+    if (Below(5) == 0) ChangeWorld();
+    if (Below(20) == 0) seq_ = 0;  // perception starts anew
+    const uint64_t scenes = Below(4) == 0 ? 10 : 1 + Below(3);
+    for (uint64_t i = 0; i < scenes; ++i) {
+      msg::Scene scene = world_;
+      std::erase_if(scene.objects, [this](const auto&) { return Below(20) == 0; });
+      ShowNow(std::move(scene));
+      desk_.now += kSecond / 10;
+    }
+  }
+
+  void ChangeWorld() {
+    if (world_.objects.empty()) return;
+    const size_t i = Below(world_.objects.size());
+    if (Below(2) == 0) {
+      world_.objects.erase(world_.objects.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      world_.objects[i].centroid_W.x() += Below(2) == 0 ? 0.03 : 0.3;
+    }
+  }
+
+  void ShowNow(msg::Scene scene) {
     scene.utime = ++desk_.now;
+    scene.seq = ++seq_;
     shown_ = scene;
-    Send([this, scene] { desk_.ShowSceneOnly(scene); });
+    Send([this, scene] {
+      const int64_t late = desk_.conversation->counters().late_scenes;
+      const Actions actions = desk_.conversation->OnScene(scene, desk_.now);
+      if (desk_.conversation->counters().late_scenes == late && scene.has_table) {
+        view_ = scene;
+        viewed_ = desk_.now;
+      }
+      desk_.Take(actions);
+      CheckTasksAreInView();
+    });
+  }
+
+  /// The object of the question goes, or moves, as the user says yes to it.
+  void Snatch(const msg::Query& query) {
+    if (query.objects.size() != 1) return;
+    msg::Scene scene = world_;
+    const bool goes = Below(2) == 0;
+    for (auto& object : scene.objects) {
+      if (object.id == query.objects[0].object_id) object.centroid_W.y() += 0.4;
+    }
+    if (goes) {
+      std::erase_if(scene.objects,
+                    [&](const auto& o) { return o.id == query.objects[0].object_id; });
+    }
+    if (Below(2) == 0) world_ = scene;  // else it was a flicker
+    ShowNow(scene);
+  }
+
+  /// Whatever is published now stands where the newest fresh scene shows it.
+  void CheckTasksAreInView() {
+    for (; seen_tasks_ < desk_.tasks.size(); ++seen_tasks_) {
+      if (viewed_ == 0 || desk_.now - viewed_ > 5 * kSecond) continue;
+      const msg::Task& task = desk_.tasks[seen_tasks_];
+      EXPECT_TRUE(std::any_of(view_.objects.begin(), view_.objects.end(),
+                              [&](const auto& object) {
+                                return (object.centroid_W - task.centroid_W).norm() <= kPlace_m;
+                              }))
+          << task.action << " " << task.object.category << " is not there";
+    }
   }
 
   void SendPoses() {
@@ -110,7 +174,10 @@ class Sequence {
     const std::string user = Any<std::string>({"ann", "bob"});
     const std::string id = Any<std::string>({"s1", "s2", "s3"});
     const Utime utime = ++desk_.now;
-    Send([this, kind, user, id, utime] { desk_.Request(kind, id, user, utime); });
+    Send([this, kind, user, id, utime] {
+      desk_.Request(kind, id, user, utime);
+      CheckTasksAreInView();
+    });
   }
 
   void SendTaskStatus() {
@@ -123,6 +190,7 @@ class Sequence {
   void SendAnswer() {
     if (desk_.queries.empty()) return;
     const msg::Query query = Below(5) == 0 ? Any(desk_.queries) : desk_.queries.back();
+    if (Below(8) == 0) Snatch(query);
     msg::Answer answer = desk_.AnswerTo(query, Below(2) * Below(query.options.size()));
     if (Below(20) == 0) answer.likelihoods.push_back(1);
     if (Below(20) == 0) answer.likelihoods.assign(answer.likelihoods.size(), 0.5);
@@ -140,9 +208,11 @@ class Sequence {
           {query.session_id, query.user, query.actions[0], query.objects[0].object_id});
     }
     desk_.Take(actions);
+    CheckTasksAreInView();
   }
 
   void Restart() {
+    viewed_ = 0;  // the new process has seen nothing
     desk_.Restart();
     for (auto it = accepted_.begin(); it != accepted_.end();) {
       const bool committed = memory_.commits.contains(std::get<0>(*it));
@@ -151,6 +221,7 @@ class Sequence {
   }
 
   void Check() {
+    CheckTasksAreInView();
     for (const auto& [id, n] : memory_.commits) EXPECT_EQ(n, 1) << id;
     for (; checked_tasks_ < desk_.tasks.size(); ++checked_tasks_) {
       const msg::Task& task = desk_.tasks[checked_tasks_];
@@ -181,7 +252,12 @@ class Sequence {
   CountingMemory memory_;
   Desk desk_{memory_};
   const std::vector<msg::Scene> scenes_ = Scenes();
+  msg::Scene world_ = scenes_[0];
   msg::Scene shown_ = scenes_[0];
+  msg::Scene view_;   // the newest that was taken
+  Utime viewed_ = 0;  // when; 0: never
+  int64_t seq_ = 0;
+  size_t seen_tasks_ = 0;
   std::vector<std::function<void()>> sent_;
   /// Full questions that were answered by yes: session, user, action, object.
   std::set<std::tuple<std::string, std::string, std::string, int>> accepted_;

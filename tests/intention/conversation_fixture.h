@@ -57,6 +57,17 @@ class Desk {
     ShowSceneOnly(scene);
     ShowPoses(scene);
   }
+  /// Objects at 10 Hz for a while, as perception shows them.
+  void Watch(const std::vector<msg::SceneObject>& objects, Utime duration = kSecond) {
+    for (const Utime end = now + duration; now < end;) {
+      now += kSecond / 10;
+      msg::Scene scene = SceneOf(objects);
+      scene.utime = now;
+      scene.seq = ++seq;
+      Show(scene);
+      Take(conversation->Tick(now));
+    }
+  }
   void Announce(const std::string& device, float error = 0, int max_options = 8) {
     msg::Interface interface;
     interface.device = device;
@@ -132,6 +143,7 @@ class Desk {
   FakeMemory& memory;
   std::unique_ptr<Conversation> conversation;
   Utime now = 1'000'000'000;
+  int64_t seq = 7;  // of the scenes that Watch shows
   std::vector<msg::Query> queries;
   std::vector<msg::Session> events;
   std::vector<msg::Task> tasks;

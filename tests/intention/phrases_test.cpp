@@ -161,8 +161,7 @@ TEST_F(Said, AnInterviewSpeaksTheLanguage) {
   const auto policy = MakePolicy("adaptive", affordances, QueryFamilies::kAll);
   ASSERT_TRUE(policy.ok());
   InterviewInput input;
-  input.scene = SceneOf({SceneObject(1, "SprayCan", 0, 0.5)});
-  input.remembered = {""};
+  input.table = {{SceneObject(1, "SprayCan", 0, 0.5), ""}};
   input.phrases = de;
   Interview interview(affordances, **policy, input);
   auto query = std::get<msg::Query>(interview.outcome());

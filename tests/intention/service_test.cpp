@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
 
+#include "lcmtypes/codec.h"
 #include "services/intention/store.h"
 #include "tests/intention/temporary_folder.h"
 
@@ -102,8 +107,26 @@ class ServiceTest : public testing::Test {
     answer.session_id = query.session_id;
     answer.device = "test";
     answer.likelihoods = {action && object ? 1.0 : 0.0, action && object ? 0.0 : 1.0};
+    if (hostile) SendHostile(answer);
     Send(answer);
     Send(answer);  // a duplicate
+  }
+  /// Well formed answers that must not be taken. All mean the opposite of `honest`.
+  void SendHostile(msg::Answer honest) {
+    std::swap(honest.likelihoods[0], honest.likelihoods[1]);
+    msg::Answer longer = honest, query = honest, session = honest, huge = honest;
+    longer.likelihoods.push_back(1);
+    query.query_id += 1;
+    session.session_id = "another";
+    huge.likelihoods.assign(64, 1e12);
+    for (const msg::Answer& answer : {longer, query, session, huge}) Send(answer);
+    hostile_sent += 4;
+  }
+  int64_t Counter(const std::string& name) const {
+    for (const auto& c : last_status.counters) {
+      if (c.name == name) return c.value;
+    }
+    return -1;
   }
   void OnEvent(const msg::Session& event) {
     if (event.kind < msg::SessionKind::kIdle) return;
@@ -131,6 +154,8 @@ class ServiceTest : public testing::Test {
   msg::Status last_status;
   msg::SessionKind stop_at = msg::SessionKind::kRequestStart;
   bool acknowledge = true;
+  bool hostile = false;
+  int hostile_sent = 0;
   bool stop_at_status = false;
   int64_t last_query = 0;
   int64_t last_counter = 0;
@@ -156,17 +181,53 @@ TEST_F(ServiceTest, HoldsAConversationToTheTask) {
   stop_at_status = true;
   RunUntil(msg::SessionKind::kRequestStart);
   EXPECT_EQ(last_status.service, "intention");
-  const auto counter = [&](const std::string& name) {
-    for (const auto& c : last_status.counters) {
-      if (c.name == name) return c.value;
-    }
-    return int64_t{-1};
-  };
-  EXPECT_EQ(counter("confirmed"), 2);
-  EXPECT_EQ(counter("answers"), questions);
-  EXPECT_EQ(counter("stale_answers"), questions);  // the duplicates
-  EXPECT_EQ(counter("db_rows"), 2);
-  EXPECT_GT(counter("question_us"), 0);
+  EXPECT_EQ(Counter("confirmed"), 2);
+  EXPECT_EQ(Counter("answers"), questions);
+  EXPECT_EQ(Counter("stale_answers"), questions);  // the duplicates
+  EXPECT_EQ(Counter("db_rows"), 2);
+  EXPECT_GT(Counter("question_us"), 0);
+}
+
+TEST_F(ServiceTest, HostileAnswersAreRefusedAndCountedAndItLivesOn) {
+  hostile = true;
+  StartService();
+  ShowScene();
+  Request("s1");
+  RunUntil(msg::SessionKind::kConfirmed);
+  ASSERT_FALSE(tasks.empty());
+  EXPECT_EQ(tasks[0].action, "Drink");
+  EXPECT_EQ(tasks[0].object.object_id, 3);
+  stop_at_status = true;
+  RunUntil(msg::SessionKind::kRequestStart);
+  EXPECT_EQ(Counter("answers"), questions);
+  EXPECT_EQ(Counter("stale_answers") + Counter("refused_requests"), hostile_sent + questions);
+}
+
+TEST_F(ServiceTest, LikelihoodsThatAreNoneReachNobody) {
+  msg::Answer answer;
+  answer.utime = clock.Now();
+  answer.query_id = 1;
+  answer.session_id = "s1";
+  answer.device = "test";
+  answer.likelihoods = {0.25, 0.75};
+  const auto good = Codec<msg::Answer>::Encode(answer);
+  ASSERT_TRUE(good.ok());
+  EXPECT_TRUE(Codec<msg::Answer>::Decode(*good).ok());
+  const std::array<uint8_t, 8> quarter{0x3f, 0xd0, 0, 0, 0, 0, 0, 0};
+  const auto at = std::search(good->begin(), good->end(), quarter.begin(), quarter.end());
+  ASSERT_NE(at, good->end());
+  for (const double bad : {-1.0, std::nan(""), -std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::infinity(), 1e300}) {
+    answer.likelihoods[0] = bad;
+    EXPECT_FALSE(bus->Publish(answer).ok()) << bad;
+    auto bytes = *good;
+    uint64_t bits;
+    std::memcpy(&bits, &bad, sizeof bits);
+    for (int i = 0; i < 8; ++i)
+      bytes[static_cast<size_t>(at - good->begin() + i)] =
+          static_cast<uint8_t>(bits >> (56 - 8 * i));
+    EXPECT_FALSE(Codec<msg::Answer>::Decode(bytes).ok()) << bad;
+  }
 }
 
 TEST_F(ServiceTest, PublishesAnOpenTaskAfterARestart) {

@@ -31,7 +31,7 @@ SessionRecord Session(const std::string& id, const std::string& user = "ann", Ut
   session.questions = 2;
   session.posterior = 1;
   session.present = {{"Carton", 1}, {"Mug", 2}};
-  session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch"},
+  session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch", AnswerFate::kWithdrawn},
                      {QuestionKind::kFull, {1, 0}, 0, "speech"}};
   return session;
 }
@@ -105,6 +105,8 @@ TEST_F(StoreTest, RemembersOverRestarts) {
   EXPECT_EQ(session.answers[1].likelihoods, (std::vector<double>{1, 0}));
   EXPECT_EQ(session.answers[1].meant, 0);
   EXPECT_EQ(session.answers[1].device, "speech");
+  EXPECT_EQ(session.answers[0].fate, AnswerFate::kWithdrawn);
+  EXPECT_EQ(session.answers[1].fate, AnswerFate::kStands);
   EXPECT_EQ(session.present.at("Mug"), 2);
   const auto labels = store->LabelsOf("camera");
   ASSERT_EQ(labels->size(), 1u);

@@ -294,14 +294,104 @@ TEST_F(DialogueTest, WhileStoppedNothingIsAskedUntilResumed) {
   EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kRequesting);
 }
 
-TEST_F(DialogueTest, UndoAndNoneOfTheseAreSaidOnce) {
+TEST_F(DialogueTest, RepeatsUndoUntilTheCountOfAnswersTellsThatItArrived) {
+  const auto id = Begin();
+  Ask(1, id);
+  Ask(2, id, 1);
+  dialogue_.Undo();
+  Pass(1'200'000);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 3);
+  EXPECT_EQ(out_.requests.back().utime, out_.requests[out_.requests.size() - 2].utime)
+      << "a repetition is the same request";
+  Ask(3, id, 1);  // the table changed meanwhile
+  Hear(SessionKind::kBegun, id, 1);
+  Pass(600'000);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 4);
+  Ask(4, id, 0);
+  Pass(3 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 4);
+}
+
+TEST_F(DialogueTest, RepeatsNoneOfTheseUntilItIsCounted) {
+  const auto id = Begin();
+  Ask(1, id);
+  dialogue_.NoneOfThese();
+  Pass(600'000);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 2);
+  Hear(SessionKind::kBegun, id, 1);
+  Pass(3 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 2);
+}
+
+TEST_F(DialogueTest, TwoUndosAreSaidOneAfterTheOther) {
+  const auto id = Begin();
+  Ask(1, id, 3);
+  dialogue_.Undo();
+  dialogue_.Undo();
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 1);
+  const Utime first = out_.requests.back().utime;
+  Pass(100'000);
+  Ask(2, id, 2);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 2);
+  EXPECT_NE(out_.requests.back().utime, first) << "another request";
+  Ask(3, id, 1);
+  Pass(3 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 2);
+}
+
+TEST_F(DialogueTest, UndoWaitsForTheAnswerThatItTakesBack) {
+  const auto id = Begin();
+  Ask(1, id);
+  dialogue_.Answer(1, {1, 0});
+  dialogue_.Undo();
+  Pass(600'000);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 0);
+  Ask(2, id, 1);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 1);
+  dialogue_.Answer(2, {1, 0});
+  EXPECT_EQ(out_.answers.size(), 2u) << "the question that is about to go is not answered";
+  Ask(3, id, 0);
+  dialogue_.Answer(3, {0, 1});
+  EXPECT_EQ(out_.answers.back().query_id, 3);
+}
+
+TEST_F(DialogueTest, WithNothingToTakeBackUndoIsSaidOnce) {
   const auto id = Begin();
   Ask(1, id);
   dialogue_.Undo();
-  dialogue_.NoneOfThese();
   Pass(3 * kSecond);
   EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 1);
-  EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 1);
+}
+
+TEST_F(DialogueTest, ChangesEndWithTheSession) {
+  const auto id = Begin();
+  Ask(1, id, 2);
+  dialogue_.Undo();
+  dialogue_.NoneOfThese();
+  Hear(SessionKind::kConfirmed, id, 2);
+  Pass(3 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 1);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 0);
+}
+
+TEST_F(DialogueTest, AQuestionIsWithdrawnWhenIntentionWaitsForSomething) {
+  const auto id = Begin();
+  Ask(1, id);
+  dialogue_.Answer(1, {1, 0});
+  msg::Session waits;
+  waits.utime = clock_.Now();
+  waits.kind = SessionKind::kBegun;
+  waits.session_id = id;
+  waits.user = "ann";
+  waits.questions = 1;
+  waits.text = "Making sure that the carton is still there.";
+  dialogue_.OnSession(waits);
+  EXPECT_EQ(out_.withdrawn, 1);
+  EXPECT_EQ(dialogue_.query(), nullptr);
+  Pass(kSecond);
+  EXPECT_EQ(out_.answers.size(), 1u);
+  Ask(2, id, 1);
+  EXPECT_THAT(out_.presented, ElementsAre(1, 2));
 }
 
 TEST_F(DialogueTest, NoneOfTheseIsTheLastOptionWhereAnObjectIsAskedAbout) {

@@ -228,14 +228,24 @@ TEST(SimulatedUser, SlipsAsOftenAsToldAndTheSameWayForTheSameSeed) {
   EXPECT_NE(answers, run(6));
 }
 
-TEST(SimulatedUser, KeepsTheSceneOfItsSession) {
+TEST(SimulatedUser, KnowsItsObjectAgainByPlaceThenById) {
   SimulatedUser user({.action = "Open", .category = "Carton"});
-  user.SeeScene(TestScene({Object(1, "Carton", 0.5)}));
-  user.Respond(YesNo(msg::QueryKind::kAction, {"Open"}, {}));
-  user.SeeScene(TestScene({Object(11, "Carton", 0.5)}));  // perception came back with new ids
-  EXPECT_EQ(Choice(user.Respond(YesNo(msg::QueryKind::kObject, {}, {{1, "Carton", 1}}))), 0u);
+  const auto is_it = [&user](int id) {
+    return Choice(user.Respond(YesNo(msg::QueryKind::kObject, {}, {{id, "Carton", 1}}))) == 0;
+  };
+  user.SeeScene(TestScene({Object(1, "Carton", 0.5), Object(2, "Carton", 0.9)}));
+  EXPECT_TRUE(is_it(1));
+  // Perception came back with other ids.
+  user.SeeScene(TestScene({Object(1, "Carton", 0.9), Object(11, "Carton", 0.51)}));
+  EXPECT_TRUE(is_it(11));
+  EXPECT_FALSE(is_it(1));
+  user.SeeScene(TestScene({Object(1, "Carton", 0.9), Object(11, "Carton", 1.2)}));  // pushed away
+  EXPECT_TRUE(is_it(11));
+  user.SeeScene(TestScene({Object(1, "Carton", 0.9)}));  // out of sight
+  EXPECT_TRUE(is_it(11));
+  EXPECT_FALSE(is_it(1));
   user.ForgetSession();
-  EXPECT_EQ(Choice(user.Respond(YesNo(msg::QueryKind::kObject, {}, {{11, "Carton", 1}}))), 0u);
+  EXPECT_TRUE(is_it(1));
 }
 
 }  // namespace

@@ -77,15 +77,28 @@ void Conversation::Advance(Talk& talk, Utime now) {
   const Interview::Outcome& outcome = talk.interview->outcome();
   if (const auto* accepted = std::get_if<AcceptedTask>(&outcome))
     return Confirm(talk, *accepted, now);
-  if (const auto* gave_up = std::get_if<GaveUp>(&outcome))
-    return Abandon(talk, gave_up->text, now, true);
+  if (const auto* gave_up = std::get_if<GaveUp>(&outcome)) {
+    if (gave_up->unclear && talk.interview->StartOver()) {
+      talk.notice += Finished(config_.phrases.start_again) + " ";
+      return Advance(talk, now);
+    }
+    const std::string notice = std::exchange(talk.notice, {});
+    const bool bare = std::ranges::all_of(talk.table->objects(), &Followed::gone);
+    if (!bare) return Abandon(talk, notice + gave_up->text, now, true);
+    talk.query.reset();
+    return WaitFor(talk, notice + Finished(config_.phrases.waiting_for_objects), now);
+  }
+  if (talk.query && talk.put == talk.interview->put()) return;  // it still stands
+  if (!std::exchange(talk.waits_for, {}).empty()) AnnounceRunning(talk, now);
   msg::Query query = std::get<msg::Query>(outcome);
   query.utime = now;
   query.id = last_query_id_ = std::max(last_query_id_ + 1, now);
   query.session_id = talk.session_id;
   query.user = talk.user;
-  query.scene_seq = talk.scene->seq;
+  query.text = std::exchange(talk.notice, {}) + query.text;
+  query.scene_seq = talk.table->seq();
   query.questions_asked = talk.interview->questions();
+  talk.put = talk.interview->put();
   talk.query = query;
   talk.query_sent = now;
   actions_.push_back(std::move(query));

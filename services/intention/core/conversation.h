@@ -17,6 +17,7 @@
 #include "services/intention/core/label_match.h"
 #include "services/intention/core/memory.h"
 #include "services/intention/core/policy.h"
+#include "services/intention/core/scene_follower.h"
 
 namespace beckon::intention {
 
@@ -30,6 +31,7 @@ struct ConversationConfig {
   double pose_place_m = 0.10;         // most between a pose and the object it is for
   int max_sessions = 16;              // users at a time
   LabelMatchConfig labels;
+  FollowConfig follow;  // of the table while a session lasts
   Phrases phrases = English();
 };
 
@@ -52,6 +54,9 @@ struct ConversationCounters {
   int64_t refused = 0;  // other messages
   int64_t tasks = 0;    // published the first time
   int64_t expired = 0;
+  int64_t revoked = 0;             // tasks whose object went or moved before a robot took them
+  int64_t held = 0;                // confirmations that waited for their object to be seen
+  int64_t late_scenes = 0;         // older than one that was there already
   int64_t unknown_categories = 0;  // objects of sessions, of a category not in the affordances
 };
 
@@ -89,8 +94,23 @@ class Conversation {
   /// Takes the newest scene. False: it went on waiting for one.
   bool TakeScene(Talk& talk, Utime now);
   void WaitFor(Talk& talk, const std::string& what, Utime now);
-  void CheckCategories(const msg::Scene& scene);
-  InterviewInput InputOf(const Talk& talk);
+  void CheckCategory(const msg::SceneObject& object);
+  InterviewInput InputOf(Talk& talk);
+  /// The table as the talk knows it now; looks up what is remembered of new objects.
+  std::vector<TableObject> TableOf(Talk& talk);
+  bool IsLate(const msg::Scene& scene, Utime now) const;
+  /// The newest scene, as far as it concerns running sessions. Each may end, and with it its talk.
+  void FollowScene(Utime now);
+  void Follow(Talk& talk, Utime now);
+  /// Confirmations whose object was not seen when they came.
+  void Recheck(Talk& talk, Utime now);
+  std::string WhatBecameOfIt(const Talk& talk, const std::vector<TableObject>& table) const;
+  bool HoldBack(Talk& talk, const AcceptedTask& accepted, Utime now);
+  void WatchTasks(Utime now);
+  bool IsInView(const PendingTask& pending) const;
+  void RevokeTask(PendingTask& pending, const std::string& text, Utime now);
+  bool IsFresh(const SceneFollower& table, Utime now) const;
+  std::vector<Talk*> Talks();
   void BeginWaiting(Utime now);
   void Advance(Talk& talk, Utime now);
   void Confirm(Talk& talk, const AcceptedTask& accepted, Utime now);
@@ -113,6 +133,8 @@ class Conversation {
   std::string DoneText(const std::string& task) const;
   void Refuse(const std::string& channel, const std::string& detail);
   void MatchPoses(Talk& talk) const;
+  /// Whether a pose may be this object's.
+  bool IsNear(const msg::ObjectPose& pose, const Followed& object) const;
   Actions Taken();
 
   const Affordances& affordances_;

@@ -17,6 +17,17 @@ uint64_t Hash(const std::string& text) {
   return hash;
 }
 
+/// Of an earlier run: its object is known by its place alone.
+msg::Scene SceneOf(const msg::Task& task) {
+  msg::Scene scene;
+  scene.X_WC = task.X_WC;
+  msg::SceneObject object;
+  object.id = task.object.object_id;
+  object.centroid_W = task.centroid_W;
+  scene.objects.push_back(object);
+  return scene;
+}
+
 }  // namespace
 
 Actions Conversation::Recover(Utime now) {
@@ -27,7 +38,9 @@ Actions Conversation::Recover(Utime now) {
     Refuse(kSessionChannel, open.error().message);
   } else {
     for (const msg::Task& task : *open) {
-      tasks_[task.task_id] = {task, 0};
+      tasks_.insert_or_assign(
+          task.task_id,
+          PendingTask{task, 0, SceneFollower(SceneOf(task), 0, config_.follow), 0, {}});
       if (task.expires_utime <= now) continue;
       latest_ = Event(msg::SessionKind::kConfirmed, now);
       latest_.session_id = task.task_id;
@@ -83,9 +96,9 @@ void Conversation::Start(const msg::Session& request, Utime now) {
 
 /// Asks the first question as soon as scene and poses are there, or says what it waits for.
 void Conversation::TryBegin(Talk& talk, Utime now) {
-  if (!talk.scene && !TakeScene(talk, now)) return;
+  if (!talk.table && !TakeScene(talk, now)) return;
   // Poses of its frame or of a later one: pose may skip scenes.
-  if (poses_.utime < talk.scene->utime && now < talk.ask_by)
+  if (poses_.utime < talk.scene_utime && now < talk.ask_by)
     return WaitFor(talk, Finished(config_.phrases.waiting_for_poses), now);
   talk.waits_for.clear();
   talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk));
@@ -112,40 +125,30 @@ bool Conversation::TakeScene(Talk& talk, Utime now) {
     WaitFor(talk, missing, now);
     return false;
   }
-  talk.scene = *scene_;
-  if (talk.scene->objects.size() > kMaxThings) talk.scene->objects.resize(kMaxThings);
+  talk.table.emplace(*scene_, scene_arrived_, config_.follow);
+  talk.scene_utime = scene_->utime;
   talk.ask_by = scene_arrived_ + config_.pose_wait;
-  CheckCategories(*talk.scene);
   MatchPoses(talk);
   return true;
 }
 
 /// Says each name once; such objects count as unknown ones.
-void Conversation::CheckCategories(const msg::Scene& scene) {
-  for (const msg::SceneObject& object : scene.objects) {
-    const std::string& name = object.category;
-    if (name == msg::kUnknownCategory || affordances_.FindCategory(name) >= 0) continue;
-    ++counters_.unknown_categories;
-    if (unknown_categories_.size() >= kMaxCategories || !unknown_categories_.insert(name).second)
-      continue;
-    Refuse("BECKON_SCENE", "object " + std::to_string(object.id) + " is of the unknown category '" +
-                               name + "', it counts as Unknown; add it to affordances.toml");
-  }
+void Conversation::CheckCategory(const msg::SceneObject& object) {
+  const std::string& name = object.category;
+  if (name == msg::kUnknownCategory || affordances_.FindCategory(name) >= 0) return;
+  ++counters_.unknown_categories;
+  if (unknown_categories_.size() >= kMaxCategories || !unknown_categories_.insert(name).second)
+    return;
+  Refuse("BECKON_SCENE", "object " + std::to_string(object.id) + " is of the unknown category '" +
+                             name + "', it counts as Unknown; add it to affordances.toml");
 }
 
-InterviewInput Conversation::InputOf(const Talk& talk) {
+InterviewInput Conversation::InputOf(Talk& talk) {
   InterviewInput input;
-  const auto labels = memory_.LabelsOf(talk.scene->source);
   const auto sessions = memory_.SessionsOf(talk.user);
-  if (!labels) Refuse(kSessionChannel, labels.error().message);
   if (!sessions) Refuse(kSessionChannel, sessions.error().message);
-  for (const msg::SceneObject& object : talk.scene->objects) {
-    const LabelRecord* label =
-        labels ? FindLabel(*labels, talk.scene->source, object, config_.labels) : nullptr;
-    input.remembered.push_back(label == nullptr ? "" : label->category);
-  }
   if (sessions) input.history = ToHistory(*sessions, affordances_);
-  input.scene = *talk.scene;
+  input.table = TableOf(talk);
   input.device = talk.device;
   input.devices = devices_;
   input.phrases = config_.phrases;
@@ -155,37 +158,27 @@ InterviewInput Conversation::InputOf(const Talk& talk) {
 
 /// The sessions that have not asked anything yet. Each may end, and with it its talk.
 void Conversation::BeginWaiting(Utime now) {
-  std::vector<Talk*> waiting;
-  for (auto& [user, talk] : talks_) {
-    if (!talk->interview) waiting.push_back(talk.get());
+  for (Talk* talk : Talks()) {
+    if (!talk->interview) TryBegin(*talk, now);
   }
-  for (Talk* talk : waiting) TryBegin(*talk, now);
-}
-
-Actions Conversation::OnScene(const msg::Scene& scene, Utime now) {
-  scene_ = scene;
-  scene_arrived_ = now;
-  BeginWaiting(now);
-  return Taken();
 }
 
 Actions Conversation::OnPoses(const msg::Poses& poses, Utime now) {
   poses_ = poses;
-  for (auto& [user, talk] : talks_) {
-    if (talk->scene) MatchPoses(*talk);
+  for (Talk* talk : Talks()) {
+    if (talk->table) MatchPoses(*talk);
   }
   BeginWaiting(now);
   return Taken();
 }
 
 void Conversation::MatchPoses(Talk& talk) const {
+  const auto& objects = talk.table->objects();
   for (const msg::ObjectPose& pose : poses_.poses) {
     if (!pose.converged) continue;
-    for (size_t i = 0; i < talk.scene->objects.size(); ++i) {
-      const msg::SceneObject& object = talk.scene->objects[i];
-      if (object.id != pose.object_id) continue;
-      if ((pose.X_WO.translation() - object.centroid_W).norm() > config_.pose_place_m) continue;
-      talk.poses[static_cast<int>(i)] = pose;
+    for (size_t i = 0; i < objects.size(); ++i) {
+      if (objects[i].gone || objects[i].object.id != pose.object_id) continue;
+      if (IsNear(pose, objects[i])) talk.poses[static_cast<int>(i)] = pose;
     }
   }
 }

@@ -14,14 +14,14 @@ constexpr size_t kRememberedEnds = 32;
 std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) const {
   std::vector<LabelRecord> records;
   for (const GivenLabel& label : talk.interview->Labels()) {
-    const msg::SceneObject& object = talk.scene->objects[label.object];
+    const msg::SceneObject& object = talk.table->objects()[label.object].object;
     LabelRecord record;
-    record.id = talk.session_id + "/label/" + std::to_string(object.id);
+    record.id = talk.session_id + "/label/" + std::to_string(label.object);
     record.session_id = talk.session_id;
     record.user = talk.user;
     record.utime = now;
     record.category = label.category;
-    record.source = talk.scene->source;
+    record.source = talk.table->source();
     record.centroid_W = object.centroid_W;
     record.extent_W = object.extent_W;
     record.probabilities = object.probabilities;
@@ -31,28 +31,31 @@ std::vector<LabelRecord> Conversation::LabelsOf(const Talk& talk, Utime now) con
 }
 
 msg::Task Conversation::MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const {
-  const msg::SceneObject& object = talk.scene->objects[accepted.object];
+  const Followed& followed = talk.table->objects()[accepted.object];
+  const msg::SceneObject& object = followed.object;
   msg::Task task;
   task.utime = now;
   task.task_id = talk.session_id;
   task.user = talk.user;
   task.action = accepted.action;
   task.object = {object.id, accepted.category, accepted.instance};
-  task.centroid_W = object.centroid_W;
-  task.pose.object_id = object.id;
-  if (const auto pose = talk.poses.find(accepted.object); pose != talk.poses.end()) {
+  task.centroid_W = followed.seen_W.value_or(object.centroid_W);
+  if (const auto pose = talk.poses.find(accepted.object);
+      pose != talk.poses.end() && IsNear(pose->second, followed)) {
     task.has_pose = true;
     task.pose = pose->second;
   }
-  task.X_WC = talk.scene->X_WC;
+  task.pose.object_id = object.id;
+  task.X_WC = talk.table->X_WC();
   task.posterior = std::min(accepted.posterior, 1.0);
   task.questions = talk.interview->questions();
   task.expires_utime = now + config_.task_lifetime;
   return task;
 }
 
-/// On disk first, then the task.
+/// On disk first, then the task; neither where its object is not seen at its place.
 void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) {
+  if (HoldBack(talk, accepted, now)) return;
   SessionRecord record;
   record.session_id = talk.session_id;
   record.user = talk.user;
@@ -76,7 +79,8 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   if (*committed) {
     ++counters_.confirmed;
     ++counters_.tasks;
-    tasks_[task.task_id] = {task, now};
+    tasks_.insert_or_assign(task.task_id,
+                            PendingTask{task, now, *std::move(talk.table), accepted.object, {}});
     actions_.push_back(task);
   }
   msg::Session event = Event(msg::SessionKind::kConfirmed, now);
@@ -130,12 +134,8 @@ void Conversation::Stop(const msg::Session& request, Utime now) {
 }
 
 void Conversation::RevokeTasks(Utime now) {
-  for (const auto& [id, pending] : tasks_) {
-    actions_.push_back(
-        msg::TaskStatus{now, id, msg::TaskState::kRevoked, Finished(config_.phrases.revoked), {}});
-    if (Status noted = memory_.NoteTask(id, msg::TaskState::kRevoked, now); !noted) {
-      Refuse(kSessionChannel, noted.error().message);
-    }
+  for (auto& [id, pending] : tasks_) {
+    if (!pending.revoked) RevokeTask(pending, Finished(config_.phrases.revoked), now);
   }
   tasks_.clear();
 }
@@ -152,6 +152,10 @@ void Conversation::Resume(const msg::Session& request, Utime now) {
 Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
   const auto pending = tasks_.find(status.task_id);
   if (pending == tasks_.end()) return Taken();
+  // A robot that took it all the same may not have heard yet; our own word comes back to us too.
+  const bool over =
+      status.state == msg::TaskState::kDone || status.state == msg::TaskState::kFailed;
+  if (pending->second.revoked && !over) return Taken();
   if (Status noted = memory_.NoteTask(status.task_id, status.state, now); !noted) {
     Refuse(kTaskStatusChannel, noted.error().message);
   }
@@ -162,6 +166,10 @@ Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
 void Conversation::RepeatTasks(Utime now) {
   for (auto entry = tasks_.begin(); entry != tasks_.end();) {
     auto& [id, pending] = *entry;
+    if (pending.task.expires_utime <= now && pending.revoked) {
+      entry = tasks_.erase(entry);
+      continue;
+    }
     if (pending.task.expires_utime <= now) {
       ++counters_.expired;
       actions_.push_back(msg::TaskStatus{
@@ -172,9 +180,15 @@ void Conversation::RepeatTasks(Utime now) {
       entry = tasks_.erase(entry);
       continue;
     }
-    if (now - pending.sent >= config_.task_period) {
+    const bool in_doubt = IsFresh(pending.table, now) && !IsInView(pending);
+    if (now - pending.sent >= config_.task_period && (pending.revoked || !in_doubt)) {
       pending.sent = now;
-      actions_.push_back(pending.task);
+      if (pending.revoked) {
+        pending.revoked->utime = now;
+        actions_.push_back(*pending.revoked);
+      } else {
+        actions_.push_back(pending.task);
+      }
     }
     ++entry;
   }
@@ -189,6 +203,7 @@ Actions Conversation::Tick(Utime now) {
     if (now - talk->announced >= config_.announce_period) AnnounceRunning(*talk, now);
   }
   // A scene that was fresh may have grown old, and poses are waited for only so long.
+  for (Talk* talk : Talks()) Recheck(*talk, now);
   BeginWaiting(now);
   if (now - latest_announced_ >= config_.announce_period && (stopped_ || talks_.empty())) {
     latest_.utime = now;

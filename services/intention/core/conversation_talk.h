@@ -16,11 +16,15 @@ struct Conversation::Talk {
   std::string user;
   std::string device;
   std::string waits_for;  // in words; empty once it asks
-  std::optional<msg::Scene> scene;
+  std::optional<SceneFollower> table;
+  Utime scene_utime = 0;                 // of its first scene
   Utime ask_by = 0;                      // with or without poses
-  std::map<int, msg::ObjectPose> poses;  // by index of the scene's object
+  std::vector<std::string> remembered;   // by object of the table: its category, or empty
+  std::map<int, msg::ObjectPose> poses;  // by object of the table
   std::unique_ptr<Interview> interview;
-  std::optional<msg::Query> query;
+  std::optional<msg::Query> query;  // nothing while it waits
+  int64_t put = 0;                  // Interview::put of the query
+  std::string notice;               // what happened, to be said with the next query
   Utime query_sent = 0;
   Utime announced = 0;
 };
@@ -28,6 +32,9 @@ struct Conversation::Talk {
 struct Conversation::PendingTask {
   msg::Task task;
   Utime sent = 0;
+  SceneFollower table;
+  int object = 0;  // of the table
+  std::optional<msg::TaskStatus> revoked;
 };
 
 }  // namespace beckon::intention

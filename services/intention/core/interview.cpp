@@ -7,8 +7,18 @@
 #include "services/intention/core/answer_errors.h"
 
 namespace beckon::intention {
+namespace {
+
+/// Of a session; a row of the history fits one datagram.
+constexpr size_t kMostWithdrawn = 64;
+
+}  // namespace
+
 Interview::Interview(const Affordances& affordances, const Policy& policy, InterviewInput input)
-    : affordances_(affordances), policy_(policy), input_(std::move(input)) {
+    : affordances_(affordances),
+      policy_(policy),
+      input_(std::move(input)),
+      moved_at_(input_.table.size(), 0) {
   Recompute();
 }
 
@@ -43,28 +53,30 @@ std::vector<double> Interview::ThroughErrors(const std::vector<double>& likeliho
 }
 
 void Interview::Answer(const std::vector<double>& likelihoods, const std::string& device) {
-  if (asked_object_ >= 0) {
-    steps_.emplace_back(WhatIsIt{asked_object_, offer_, ThroughErrors(likelihoods, device)});
+  if (asked_.object >= 0) {
+    steps_.emplace_back(WhatIsIt{asked_.object, asked_.offer, ThroughErrors(likelihoods, device)});
   } else {
     const Evidence evidence = InterfaceOf(device).errors.Hear(likelihoods);
-    steps_.emplace_back(Heard{question_, evidence, likelihoods, device});
+    steps_.emplace_back(Heard{asked_.question, evidence, likelihoods, device, looks_, labels_});
   }
   Recompute();
 }
 
 void Interview::NoneOfThese(const std::string& device) {
-  if (asked_object_ >= 0) {
-    const auto& query = std::get<msg::Query>(outcome_);
+  if (asked_.object >= 0) {
+    const auto& query = std::get<msg::Query>(asked_.outcome);
     std::vector<double> last(query.options.size(), 0.0);
     last.back() = 1;
     return Answer(last, device);
   }
-  steps_.emplace_back(std::in_place_type<RefusedAll>);
+  steps_.emplace_back(RefusedAll{OnTable()});
   Recompute();
 }
 
 bool Interview::Undo() {
   if (steps_.empty()) return false;
+  const auto* heard = std::get_if<Heard>(&steps_.back());
+  if (heard != nullptr && withdrawn_.size() < kMostWithdrawn) withdrawn_.push_back(*heard);
   steps_.pop_back();
   Recompute();
   return true;
@@ -74,28 +86,28 @@ void Interview::Recompute() {
   StartOpinions();
   evidence_.clear();
   relabelled_at_ = 0;
-  refused_all_ = false;
-  asked_object_ = -1;
+  refused_ = 0;
+  labels_ = 0;
+  belief_ = {};
+  prior_.clear();
   for (const Step& step : steps_) {
     if (const auto* heard = std::get_if<Heard>(&step)) evidence_.push_back(*heard);
     if (const auto* what = std::get_if<WhatIsIt>(&step)) Apply(*what);
-    if (std::holds_alternative<RefusedAll>(step)) refused_all_ = true;
+    if (const auto* refused = std::get_if<RefusedAll>(&step)) Apply(*refused);
   }
-  std::vector<Thing> things;
-  for (size_t i = 0; i < opinions_.size(); ++i) {
-    const Eigen::Vector3d& place = input_.scene.objects[i].centroid_W;
-    things.push_back({opinions_[i].category, std::hypot(place.x(), place.y()), place.x()});
-  }
-  situation_ = MakeSituation(affordances_, things);
+  situation_ = SituationNow();
+  asked_ = {.look = looks_, .put = asked_.put + 1};
   const int doubtful = NextInDoubt();
   doubtful >= 0 ? AskObject(doubtful, true) : AskTask();
 }
 
-Question Interview::Resolved(Question question) const {
+Question Interview::Resolved(Question question, int look) const {
   for (Proposition& option : question.options) {
+    option.pair = -1;
     if (!std::has_single_bit(option.actions) || !std::has_single_bit(option.objects)) continue;
-    option.pair =
-        situation_.Find(std::countr_zero(option.objects), std::countr_zero(option.actions));
+    const int object = std::countr_zero(option.objects);
+    if (moved_at_[object] > look) continue;
+    option.pair = situation_.Find(object, std::countr_zero(option.actions));
   }
   return question;
 }
@@ -105,7 +117,9 @@ std::unique_ptr<Dialogue> Interview::Replayed(size_t from) {
       policy_.Begin(situation_, input_.history, InterfaceOf(input_.device), input_.seed);
   prior_ = dialogue->CurrentBelief().posterior;
   for (size_t i = from; i < evidence_.size(); ++i) {
-    dialogue->Hear(Resolved(evidence_[i].question), evidence_[i].evidence);
+    const Heard& heard = evidence_[i];
+    if (ChoseTheGone(heard)) continue;
+    dialogue->Hear(Resolved(heard.question, heard.look), heard.evidence);
   }
   return dialogue;
 }
@@ -113,39 +127,45 @@ std::unique_ptr<Dialogue> Interview::Replayed(size_t from) {
 void Interview::AskTask() {
   auto dialogue = Replayed(0);
   auto next = dialogue->Ask();
-  if (!next && !dialogue->Accepted() && relabelled_at_ > 0) {
-    // What was answered before an object turned out to be something else rules everything out:
-    // forget it.
-    dialogue = Replayed(relabelled_at_);
+  if (const size_t outdated = Outdated(); !next && !dialogue->Accepted() && outdated > 0) {
+    // What was answered before an object turned out to be something else, or went, rules
+    // everything out: forget it.
+    dialogue = Replayed(outdated);
     next = dialogue->Ask();
   }
-  if (const auto accepted = dialogue->Accepted())
-    return Accept(*accepted, dialogue->CurrentBelief());
-  if (next && !refused_all_) {
-    question_ = *next;
-    outcome_ = TaskQuery(*next, dialogue->CurrentBelief());
+  belief_ = dialogue->CurrentBelief();
+  const bool refused = RefusedEverything();
+  if (const auto accepted = dialogue->Accepted(); accepted && !refused)
+    return Accept(*accepted, belief_);
+  if (next && !refused) {
+    asked_.question = *next;
+    asked_.outcome = TaskQuery(*next, belief_);
+    return;
+  }
+  if (dialogue->End() == Ending::kUnclear) {
+    asked_.outcome = GaveUp{Finished(input_.phrases.start_again), true};
     return;
   }
   if (const int object = NextToRecheck(); object >= 0) return AskObject(object, false);
-  outcome_ = GaveUp{Finished(situation_.pairs.empty() ? input_.phrases.nothing_to_do
-                                                      : input_.phrases.none_of_the_tasks)};
+  asked_.outcome = GaveUp{Finished(situation_.pairs.empty() ? input_.phrases.nothing_to_do
+                                                            : input_.phrases.none_of_the_tasks)};
 }
 
 void Interview::Accept(int pair, const Belief& belief) {
   const Pair& wanted = situation_.pairs[pair];
   const Instance& instance = situation_.objects[wanted.object];
-  outcome_ = AcceptedTask{wanted.object,
-                          affordances_.categories()[instance.category].name,
-                          affordances_.actions()[wanted.action].name,
-                          instance.rank,
-                          belief.best_pair == pair ? belief.best_posterior : 1,
-                          TaskText(affordances_, situation_, wanted, input_.phrases)};
+  asked_.outcome = AcceptedTask{wanted.object,
+                                affordances_.categories()[instance.category].name,
+                                affordances_.actions()[wanted.action].name,
+                                instance.rank,
+                                belief.best_pair == pair ? belief.best_posterior : 1,
+                                TaskText(affordances_, situation_, wanted, input_.phrases)};
 }
 
 msg::ObjectRef Interview::Ref(int object) const {
   const int category = opinions_[object].category;
   return {
-      input_.scene.objects[object].id,
+      input_.table[object].object.id,
       category < 0 ? std::string(msg::kUnknownCategory) : affordances_.categories()[category].name,
       std::max(1, situation_.objects[object].rank)};
 }
@@ -177,7 +197,7 @@ std::vector<msg::ObjectRef> Interview::ObjectRefs(uint64_t objects) const {
   return refs;
 }
 
-msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) const {
+msg::Query Interview::TaskWords(const Question& question) const {
   msg::Query query;
   switch (question.kind) {
     case QuestionKind::kAction:
@@ -218,6 +238,11 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
     query.objects = ObjectRefs(asked.objects);
     query.options = {{.text = Finished(input_.phrases.yes)}, {.text = Finished(input_.phrases.no)}};
   }
+  return query;
+}
+
+msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) const {
+  msg::Query query = TaskWords(question);
   query.n_candidates = belief.possible_pairs;
   query.expected_questions = belief.expected_questions;
   query.expected_seconds = belief.expected_seconds;
@@ -227,15 +252,15 @@ msg::Query Interview::TaskQuery(const Question& question, const Belief& belief) 
 }
 
 void Interview::AskObject(int object, bool in_doubt) {
-  asked_object_ = object;
+  asked_.object = object;
   msg::Query query;
   query.kind = msg::QueryKind::kWhatIsIt;
   query.text = Finished(input_.phrases.what_is_it);
   query.any_object = false;
   query.objects = {Ref(object)};
-  const int id = input_.scene.objects[object].id;
-  offer_ = Offer(object);
-  for (const int category : offer_) {
+  const int id = input_.table[object].object.id;
+  asked_.offer = Offer(object);
+  for (const int category : asked_.offer) {
     const std::string& name = affordances_.categories()[category].name;
     query.options.push_back({ANoun(input_.phrases, name), name, {}, {id}});
   }
@@ -244,25 +269,31 @@ void Interview::AskObject(int object, bool in_doubt) {
   query.n_candidates = situation_.pair_count();
   query.expected_questions = 1;
   JustifyWhatIsIt(query, in_doubt);
-  outcome_ = std::move(query);
+  asked_.outcome = std::move(query);
 }
 
 std::vector<AnswerRecord> Interview::Answers() const {
   std::vector<AnswerRecord> answers;
-  const auto* task = std::get_if<AcceptedTask>(&outcome_);
+  const auto* task = std::get_if<AcceptedTask>(&asked_.outcome);
   if (task == nullptr) return answers;
   const Pair wanted{task->object, affordances_.FindAction(task->action)};
-  for (const Heard& step : evidence_) {
+  const auto record = [&](const Heard& step, AnswerFate fate) {
+    if (step.likelihoods.empty() || ChoseTheGone(step)) return;
+    // An answer that no longer stands tells of errors only where all is called what it was.
+    if (fate != AnswerFate::kStands && step.labels != labels_) return;
     answers.push_back(
-        {step.question.kind, step.likelihoods, step.question.Meant(wanted), step.device});
-  }
+        {step.question.kind, step.likelihoods, step.question.Meant(wanted), step.device, fate});
+  };
+  for (const Heard& step : dropped_) record(step, AnswerFate::kDropped);
+  for (const Heard& step : withdrawn_) record(step, AnswerFate::kWithdrawn);
+  for (const Heard& step : evidence_) record(step, AnswerFate::kStands);
   return answers;
 }
 
 std::map<std::string, int> Interview::Present() const {
   std::map<std::string, int> present;
-  for (const Opinion& opinion : opinions_) {
-    if (opinion.category >= 0) ++present[affordances_.categories()[opinion.category].name];
+  for (const Instance& object : situation_.objects) {
+    if (object.category >= 0) ++present[affordances_.categories()[object.category].name];
   }
   return present;
 }

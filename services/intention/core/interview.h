@@ -25,9 +25,15 @@ struct DeviceModel {
   std::vector<std::vector<float>> confusion;  // k x k for choices of k options; may be empty
 };
 
+/// An object of the session's table. Objects keep their index while it lasts.
+struct TableObject {
+  msg::SceneObject object;
+  std::string remembered;  // category the user gave in an earlier session, or empty
+  bool gone = false;       // affords nothing now; it may come back
+};
+
 struct InterviewInput {
-  msg::Scene scene;
-  std::vector<std::string> remembered;  // by scene object: category the user gave earlier, or empty
+  std::vector<TableObject> table;  // at most kMaxThings
   UserHistory history;
   std::string device;  // that requested the session
   std::map<std::string, DeviceModel> devices;
@@ -37,7 +43,7 @@ struct InterviewInput {
 
 /// The accepted task.
 struct AcceptedTask {
-  int object = 0;  // index in scene.objects
+  int object = 0;  // index in the table
   std::string category;
   std::string action;
   int instance = 1;
@@ -48,11 +54,12 @@ struct AcceptedTask {
 /// Nothing fits.
 struct GaveUp {
   std::string text;
+  bool unclear = false;  // the answers make no sense together; it may start over
 };
 
 /// A label given in this session.
 struct GivenLabel {
-  int object = 0;  // index in scene.objects
+  int object = 0;  // index in the table
   std::string category;
 };
 
@@ -65,7 +72,19 @@ class Interview {
 
   /// The query to ask (without ids, times and user), or the end.
   using Outcome = std::variant<msg::Query, AcceptedTask, GaveUp>;
-  const Outcome& outcome() const { return outcome_; }
+  const Outcome& outcome() const { return asked_.outcome; }
+
+  /// Changes whenever the outcome is another one, or must be put to the user anew.
+  int64_t put() const { return asked_.put; }
+
+  /// The table changed: the same objects in the same order, then new ones. Answers stay evidence
+  /// about what they spoke of; the question stays where it says what it said. A task is never
+  /// accepted by such a change, nor by a yes from before its object moved.
+  void Look(std::vector<TableObject> table);
+  /// An object may not be where it was when it was accepted: a new yes is needed.
+  void Doubt(int object);
+  /// Begins anew: labels are kept, answers dropped. False where that was done before.
+  bool StartOver();
 
   /// A device announced itself (again); counts from the next step on.
   void Know(const std::string& device, const DeviceModel& model) { input_.devices[device] = model; }
@@ -77,9 +96,14 @@ class Interview {
   /// Takes the last step back; false where there is none.
   bool Undo();
 
-  /// Steps so far.
-  int questions() const { return static_cast<int>(steps_.size()); }
-  /// Once a task was accepted: the answers as evidence about errors.
+  /// Answers so far that were not taken back.
+  int questions() const { return static_cast<int>(steps_.size() + dropped_.size()); }
+  /// The one object that the outcome asks about, or -1.
+  int asked_object() const;
+  bool HasMoved(const TableObject& now, int object) const;
+  /// A sentence of the phrases about an object: "The nearest mug is gone."
+  std::string Say(const std::string& sentence, int object) const;
+  /// Once a task was accepted: the answers as evidence about errors, also the withdrawn ones.
   std::vector<AnswerRecord> Answers() const;
   std::vector<GivenLabel> Labels() const;
   /// Instances on the table, by category.
@@ -89,15 +113,19 @@ class Interview {
   struct Heard {
     Question question;
     Evidence evidence;
-    std::vector<double> likelihoods;  // as received
+    std::vector<double> likelihoods;  // as received; empty: none of these, by request
     std::string device;
+    int look = 0;    // looks_ when it was heard
+    int labels = 0;  // labels_ when it was heard
   };
   struct WhatIsIt {
     int object;
     std::vector<int> offer;           // categories, as they were offered
     std::vector<double> likelihoods;  // by option, errors of the device considered
   };
-  struct RefusedAll {};
+  struct RefusedAll {
+    uint64_t objects;  // on the table then
+  };
   using Step = std::variant<Heard, WhatIsIt, RefusedAll>;
 
   /// What is known of an object after the steps.
@@ -112,17 +140,41 @@ class Interview {
     std::vector<double> share;  // by option of an offer that is not decided
   };
 
+  /// The outcome and what is behind it.
+  struct Asked {
+    Outcome outcome;
+    Question question;       // where it is about tasks
+    int object = -1;         // where it is a what-is-it query
+    std::vector<int> offer;  // its options but the last
+    int look = 0;            // looks_ when it was put
+    int64_t put = 0;
+  };
+
   void Recompute();
   void StartOpinions();
   void Apply(const WhatIsIt& step);
+  void Apply(const RefusedAll& step);
   void Refuse(int object, const std::vector<int>& categories);
   void Relabel(int object, int category);
   void AskTask();
   /// `in_doubt`: before any task, not because every task was refused.
   void AskObject(int object, bool in_doubt);
-  /// A question with its pair looked up in the current situation.
-  Question Resolved(Question question) const;
+  /// A question with its pairs looked up in the current situation. What was said at a look accepts
+  /// nothing that moved later.
+  Question Resolved(Question question, int look) const;
   std::unique_ptr<Dialogue> Replayed(size_t from);
+  /// Index of the evidence from before an object was named or went.
+  size_t Outdated() const;
+  /// Whether an answer chose only objects that are gone.
+  bool ChoseTheGone(const Heard& step) const;
+  bool RefusedEverything() const;
+  uint64_t OnTable() const;
+  Situation SituationNow() const;
+  /// Recomputes after a change of the table; `arrived`: objects that are new on it.
+  void Reconsider(uint64_t arrived);
+  bool StillStands(const Asked& asked, uint64_t arrived) const;
+  bool TaskStillStands(const Asked& asked, uint64_t arrived) const;
+  bool IsPossible(const Proposition& option) const;
   int NextInDoubt() const;
   int NextToRecheck() const;
   /// Categories that were not refused for an object, likeliest first, those without a probability
@@ -141,6 +193,8 @@ class Interview {
   /// Of a proposition; empty where it is any.
   std::vector<std::string> ActionNames(const Proposition& proposition) const;
   std::vector<msg::ObjectRef> ObjectRefs(uint64_t objects) const;
+  /// What a query about tasks says, without numbers and reasons.
+  msg::Query TaskWords(const Question& question) const;
   msg::Query TaskQuery(const Question& question, const Belief& belief) const;
   /// Says why it is asked.
   void Justify(msg::Query& query, const Question& question, const Belief& belief) const;
@@ -151,18 +205,23 @@ class Interview {
   const Policy& policy_;
   InterviewInput input_;
   std::vector<Step> steps_;
+  std::vector<Heard> withdrawn_;  // by undo
+  std::vector<Heard> dropped_;    // when it started over
+  bool started_over_ = false;
+  int looks_ = 0;              // changes of the table
+  int went_at_ = 0;            // looks_ when an object last went
+  std::vector<int> moved_at_;  // by object: looks_ when it last came or moved
 
   // Recomputed from the steps.
-  std::vector<Opinion> opinions_;  // by scene object
+  std::vector<Opinion> opinions_;  // by object of the table
   std::vector<Heard> evidence_;    // that still holds
   size_t relabelled_at_ = 0;       // evidence_.size() when a label last changed
-  bool refused_all_ = false;
+  uint64_t refused_ = 0;           // objects whose tasks were all refused
+  int labels_ = 0;                 // steps that spoke of what an object is
+  Belief belief_;                  // behind asked_, where tasks were considered
   Situation situation_;
   std::vector<double> prior_;  // by pair, before any answer; empty where the policy has none
-  Question question_;          // behind outcome_, where it is about tasks
-  int asked_object_ = -1;      // behind outcome_, where it is a what-is-it query
-  std::vector<int> offer_;     // its options but the last
-  Outcome outcome_;
+  Asked asked_;
 };
 
 }  // namespace beckon::intention

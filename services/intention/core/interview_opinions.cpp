@@ -15,18 +15,19 @@ constexpr double kDecided = 0.9;
 }  // namespace
 
 void Interview::StartOpinions() {
-  opinions_.assign(input_.scene.objects.size(), {});
+  opinions_.assign(input_.table.size(), {});
   for (size_t i = 0; i < opinions_.size(); ++i) {
-    const msg::SceneObject& object = input_.scene.objects[i];
+    const auto& [object, remembered, gone] = input_.table[i];
     Opinion& opinion = opinions_[i];
-    opinion.remembered = !input_.remembered[i].empty();
+    opinion.remembered = !remembered.empty();
     opinion.in_doubt = object.ask_user && !opinion.remembered;
-    const std::string& name = opinion.remembered ? input_.remembered[i] : object.category;
+    const std::string& name = opinion.remembered ? remembered : object.category;
     opinion.category = opinion.in_doubt ? -1 : affordances_.FindCategory(name);
   }
 }
 
 void Interview::Apply(const WhatIsIt& step) {
+  ++labels_;
   Opinion& opinion = opinions_[step.object];
   if (opinion.offered != step.offer || opinion.share.empty()) {
     opinion.offered = step.offer;
@@ -77,7 +78,7 @@ void Interview::Relabel(int object, int category) {
   }
   evidence_ = std::move(kept);
   relabelled_at_ = evidence_.size();
-  refused_all_ = false;
+  refused_ = 0;
 }
 
 std::vector<int> Interview::Left(int object) const {
@@ -87,7 +88,7 @@ std::vector<int> Interview::Left(int object) const {
     if (category < 0 || std::count(refused.begin(), refused.end(), category) > 0) return;
     if (std::count(left.begin(), left.end(), category) == 0) left.push_back(category);
   };
-  for (const auto& p : input_.scene.objects[object].probabilities) {
+  for (const auto& p : input_.table[object].object.probabilities) {
     add(affordances_.FindCategory(p.category));
   }
   for (int i = 0; i < static_cast<int>(affordances_.categories().size()); ++i) add(i);
@@ -95,7 +96,7 @@ std::vector<int> Interview::Left(int object) const {
 }
 
 size_t Interview::FirstOffers(int object) const {
-  const auto& probabilities = input_.scene.objects[object].probabilities;
+  const auto& probabilities = input_.table[object].object.probabilities;
   const bool has_opinion =
       std::any_of(probabilities.begin(), probabilities.end(),
                   [&](const auto& p) { return affordances_.FindCategory(p.category) >= 0; });
@@ -119,8 +120,10 @@ int Interview::NextInDoubt() const {
   int next = -1;
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
     const Opinion& opinion = opinions_[i];
-    if (!opinion.in_doubt || opinion.settled || opinion.refused.size() >= FirstOffers(i)) continue;
-    if (next < 0 || input_.scene.objects[i].confidence < input_.scene.objects[next].confidence)
+    if (input_.table[i].gone || !opinion.in_doubt || opinion.settled ||
+        opinion.refused.size() >= FirstOffers(i))
+      continue;
+    if (next < 0 || input_.table[i].object.confidence < input_.table[next].object.confidence)
       next = i;
   }
   return next;
@@ -132,11 +135,10 @@ int Interview::NextToRecheck() const {
   int next = -1;
   const auto later = [&](int i) {
     const Opinion& opinion = opinions_[i];
-    return std::tuple(opinion.category >= 0, opinion.remembered,
-                      input_.scene.objects[i].confidence);
+    return std::tuple(opinion.category >= 0, opinion.remembered, input_.table[i].object.confidence);
   };
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
-    if (opinions_[i].settled) continue;
+    if (input_.table[i].gone || opinions_[i].settled) continue;
     if (next < 0 || later(i) < later(next)) next = i;
   }
   return next;

@@ -28,9 +28,10 @@ void Interview::Justify(msg::Query& query, const Question& question, const Belie
 void Interview::JustifyWhatIsIt(msg::Query& query, bool in_doubt) const {
   constexpr size_t kNamed = 2;
   std::vector<std::pair<std::string, double>> likeliest;
-  for (const auto& seen : input_.scene.objects[asked_object_].probabilities) {
+  for (const auto& seen : input_.table[asked_.object].object.probabilities) {
     const int category = affordances_.FindCategory(seen.category);
-    const bool offered = std::find(offer_.begin(), offer_.end(), category) != offer_.end();
+    const bool offered =
+        std::find(asked_.offer.begin(), asked_.offer.end(), category) != asked_.offer.end();
     if (offered && likeliest.size() < kNamed)
       likeliest.emplace_back(seen.category, seen.probability);
   }

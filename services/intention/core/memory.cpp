@@ -19,6 +19,7 @@ UserHistory ToHistory(const std::vector<SessionRecord>& sessions, const Affordan
         past.present[static_cast<size_t>(category)] = count;
     }
     for (const AnswerRecord& answer : session.answers) {
+      if (answer.fate == AnswerFate::kDropped) continue;
       Count(past.answers[answer.device], static_cast<int>(answer.likelihoods.size()), answer.meant,
             SaidAnswer(answer.likelihoods));
     }

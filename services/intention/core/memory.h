@@ -13,12 +13,20 @@
 
 namespace beckon::intention {
 
+/// What became of an answer in its session.
+enum class AnswerFate {
+  kStands,
+  kWithdrawn,  // the user took it back
+  kDropped     // the session started over: what was wanted until then is not known
+};
+
 /// An answer of a confirmed session, as evidence about the device's errors.
 struct AnswerRecord {
   QuestionKind kind = QuestionKind::kFull;
   std::vector<double> likelihoods;  // as received, by answer; yes and no where there are two
   int meant = 0;                    // index of the answer that the confirmed task makes right
   std::string device;               // that it came from
+  AnswerFate fate = AnswerFate::kStands;
 };
 
 /// A confirmed session.

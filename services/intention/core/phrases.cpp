@@ -103,6 +103,8 @@ const std::vector<Sentence>& Sentences() {
       {"session", "start_again", &Phrases::start_again, {}},
       {"session", "object_moved", &Phrases::object_moved, {"object"}},
       {"session", "object_gone", &Phrases::object_gone, {"object"}},
+      {"session", "looking_for", &Phrases::looking_for, {"object"}},
+      {"session", "out_of_sight", &Phrases::out_of_sight, {"object"}},
       {"session", "not_remembered", &Phrases::not_remembered, {"reason"}},
       {"session", "cancelled", &Phrases::cancelled, {}},
       {"session", "stopped", &Phrases::stopped, {}},

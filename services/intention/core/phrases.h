@@ -98,6 +98,8 @@ struct Phrases {
   std::string start_again;
   std::string object_moved;    // {object}: "{object} has moved."
   std::string object_gone;     // {object}
+  std::string looking_for;     // {object}: the session waits until it is seen
+  std::string out_of_sight;    // {object}
   std::string not_remembered;  // {reason}
   std::string cancelled, stopped, no_robot, revoked;
 

@@ -49,6 +49,8 @@ Phrases MakeEnglish() {
   p.start_again = "I am not sure what you want. Let us start again.";
   p.object_moved = "{object} has moved.";
   p.object_gone = "{object} is gone.";
+  p.looking_for = "making sure that {object} is still there.";
+  p.out_of_sight = "{object} is out of sight.";
   p.not_remembered = "it could not be remembered, so nothing was done: {reason}";
   p.cancelled = "cancelled.";
   p.stopped = "stopped. Only \"resume\" leads on.";

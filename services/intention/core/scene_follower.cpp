@@ -53,12 +53,12 @@ bool SceneFollower::See(const msg::Scene& scene, Utime now) {
 
 /// Greedy: by id first, then the nearest by place and looks.
 SceneFollower::Matches SceneFollower::Match(const msg::Scene& scene) const {
-  struct Pair {
+  struct Candidate {
     bool by_id;
     double distance_m;
     size_t theirs, ours;
   };
-  std::vector<Pair> pairs;
+  std::vector<Candidate> pairs;
   for (size_t theirs = 0; theirs < scene.objects.size(); ++theirs) {
     const msg::SceneObject& object = scene.objects[theirs];
     for (size_t ours = 0; ours < objects_.size(); ++ours) {
@@ -73,13 +73,13 @@ SceneFollower::Matches SceneFollower::Match(const msg::Scene& scene) const {
         pairs.push_back({same_id, distance_m, theirs, ours});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+  std::sort(pairs.begin(), pairs.end(), [](const Candidate& a, const Candidate& b) {
     return std::tuple(!a.by_id, a.distance_m, a.theirs, a.ours) <
            std::tuple(!b.by_id, b.distance_m, b.theirs, b.ours);
   });
   Matches matches(scene.objects.size(), -1);
   std::vector<bool> taken(objects_.size(), false);
-  for (const Pair& pair : pairs) {
+  for (const Candidate& pair : pairs) {
     if (matches[pair.theirs] >= 0 || taken[pair.ours]) continue;
     matches[pair.theirs] = static_cast<int>(pair.ours);
     taken[pair.ours] = true;

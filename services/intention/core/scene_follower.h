@@ -71,7 +71,7 @@ class SceneFollower {
   bool Near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   bool Lasts(Change& change, const std::optional<Eigen::Vector3d>& at_W, Utime now) const;
 
-  const FollowConfig config_;
+  FollowConfig config_;
   std::vector<Followed> objects_;
   std::vector<Track> tracks_;        // by object
   std::vector<Newcomer> newcomers_;  // not believed yet
