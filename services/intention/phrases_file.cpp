@@ -47,9 +47,9 @@ class Texts {
 void NeedWords(ConfigTable& table, const std::string& key, size_t least,
                std::vector<std::string>& words) {
   table.Get(key, words);
-  for (const std::string& word : words) {
-    if (Status right = CheckTemplate(word, {}, {}); !right)
-      return table.Fail(key, "'" + word + "' " + right.error().message);
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (Status right = CheckTemplate(words[i], {}, {}); !right)
+      return table.Fail(key, "word " + std::to_string(i + 1) + " " + right.error().message);
   }
   if (words.size() < least) {
     table.Fail(key, "expected a list of at least " + std::to_string(least) + " words, found " +

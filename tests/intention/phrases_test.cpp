@@ -168,6 +168,8 @@ TEST_F(Said, AnInterviewSpeaksTheLanguage) {
   EXPECT_EQ(query.text, "Die Sprühdose greifen?");
   EXPECT_EQ(query.options[0].text, "Ja");
   EXPECT_EQ(query.options[1].text, "Nein");
+  EXPECT_EQ(query.why,
+            "Es ist die einzige Aufgabe, die noch möglich ist; mit einem Ja ist alles klar.");
   interview.NoneOfThese("");
   query = std::get<msg::Query>(interview.outcome());
   EXPECT_EQ(query.text, "Was ist das für ein Objekt?");

@@ -9,7 +9,8 @@ namespace beckon::intention {
 void Interview::Justify(msg::Query& query, const Question& question, const Belief& belief) const {
   const Why why =
       Explain(situation_, input_.history, prior_, belief, question, InterfaceOf(input_.device));
-  query.why = WhyText(affordances_, situation_, input_.history, belief, question, why);
+  query.why =
+      WhyText(affordances_, situation_, input_.history, belief, question, why, input_.phrases);
   query.information_bits = why.information_bits;
   for (const Prospect& prospect : why.prospects) {
     query.prospects.push_back({static_cast<float>(std::clamp(prospect.probability, 0.0, 1.0)),
@@ -35,7 +36,7 @@ void Interview::JustifyWhatIsIt(msg::Query& query, bool in_doubt) const {
     if (offered && likeliest.size() < kNamed)
       likeliest.emplace_back(seen.category, seen.probability);
   }
-  query.why = WhyWhatIsIt(likeliest, in_doubt || situation_.pairs.empty());
+  query.why = WhyWhatIsIt(likeliest, in_doubt || situation_.pairs.empty(), input_.phrases);
 }
 
 }  // namespace beckon::intention

@@ -90,6 +90,17 @@ struct Phrases {
   std::string what_is_it;
   std::string again;  // {question}: it was asked before
   std::string yes, no, none_of_these, something;
+  // Why a question is asked: a reason and what comes of it
+  std::string wanted_last_time, wanted_each_time;  // {task}; {task} {sessions}
+  std::string wanted_often;                        // {task} {times} {sessions}
+  std::string wanted_before;                       // {task}
+  std::string only_task;
+  std::string likeliest_task, halves, tells_most;  // {count}: tasks that are possible
+  std::string settles, one_follows, more_follow;   // {count}: questions
+  std::string because;                             // {reason} {outlook}
+  std::string looks_like;                          // {objects}
+  std::string looks;                               // {object} {percent}
+  std::string looks_unclear, looks_wrong;
   // Sessions
   std::string done;  // {task}
   std::string waiting_for_picture, waiting_for_table, waiting_for_objects, waiting_for_poses;

@@ -39,6 +39,23 @@ Phrases MakeEnglish() {
   p.no = "no";
   p.none_of_these = "none of these";
   p.something = "something";
+  p.wanted_last_time = "you wanted to {task} last time";
+  p.wanted_each_time = "you wanted to {task} in each of the last {sessions} sessions";
+  p.wanted_often = "you wanted to {task} in {times} of the last {sessions} sessions";
+  p.wanted_before = "you wanted to {task} before";
+  p.only_task = "it is the only task left";
+  p.likeliest_task = "of {count} tasks that are possible this is the likeliest";
+  p.halves = "{count} tasks are possible and either answer rules out about half";
+  p.tells_most = "{count} tasks are possible and this tells most about which it is";
+  p.settles = "a yes settles it";
+  p.one_follows = "about one more question will follow";
+  p.more_follow = "about {count} more questions will follow";
+  p.because = "{reason}; {outlook}.";
+  p.looks_like = "it looks like {objects}; your answer is remembered.";
+  p.looks = "{object} ({percent} %)";
+  p.looks_unclear = "I cannot tell what it is; your answer is remembered.";
+  p.looks_wrong =
+      "none of the tasks that I know was right, so an object may be another than I took it for.";
   p.done = "{task}.";
   p.waiting_for_picture = "waiting for a picture of the table.";
   p.waiting_for_table = "waiting until the table is in view.";

@@ -123,25 +123,31 @@ void ShareOut(std::vector<Prospect>& prospects, const std::vector<double>& left,
 
 // Words. A sentence is put together from a reason and what comes of it.
 
-std::string Uncapitalised(std::string text) {
+/// A task as it stands within a sentence.
+std::string TaskWords(const Affordances& affordances, const Situation& situation, int pair,
+                      const Phrases& phrases) {
+  std::string text = TaskText(affordances, situation, situation.pairs[pair], phrases);
   text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
 }
 
-std::string Count(int n) {
-  static const char* const kWords[] = {"no",    "one",   "two",  "three", "four",   "five",  "six",
-                                       "seven", "eight", "nine", "ten",   "eleven", "twelve"};
-  return n <= 12 ? kWords[n] : std::to_string(n);
+std::string Count(int n, const Phrases& phrases) {
+  const bool word = n >= 1 && n <= static_cast<int>(phrases.numbers.size());
+  return word ? phrases.numbers[static_cast<size_t>(n - 1)] : std::to_string(n);
 }
 
-std::string Habit(const std::string& task, const LikelyTask& likely, size_t sessions) {
+std::string Habit(const std::string& task, const LikelyTask& likely, size_t sessions,
+                  const Phrases& phrases) {
   const int recent = static_cast<int>(std::min<size_t>(sessions, kRecentSessions));
-  const std::string wanted = "you wanted to " + task;
-  if (likely.recently == 0) return wanted + " before";
-  if (likely.recently == 1 && likely.sessions_ago == 1) return wanted + " last time";
-  const std::string last = "the last " + std::to_string(recent) + " sessions";
-  if (likely.recently == recent) return wanted + " in each of " + last;
-  return wanted + " in " + std::to_string(likely.recently) + " of " + last;
+  const bool last_time = likely.recently == 1 && likely.sessions_ago == 1;
+  const std::string& text = likely.recently == 0        ? phrases.wanted_before
+                            : last_time                 ? phrases.wanted_last_time
+                            : likely.recently == recent ? phrases.wanted_each_time
+                                                        : phrases.wanted_often;
+  return Fill(phrases, text,
+              {{"task", {{"", task}}},
+               {"times", {{"", std::to_string(likely.recently)}}},
+               {"sessions", {{"", std::to_string(recent)}}}});
 }
 
 /// A habit that the question is about: of the tasks it mentions the likeliest that was wanted
@@ -158,39 +164,29 @@ const LikelyTask* HabitBehind(const Situation& situation, const Question& questi
 
 std::string Reason(const Affordances& affordances, const Situation& situation,
                    const UserHistory& history, const Belief& belief, const Question& question,
-                   const Why& why) {
+                   const Why& why, const Phrases& phrases) {
   if (const LikelyTask* habit = HabitBehind(situation, question, why)) {
-    const std::string task = TaskText(affordances, situation, situation.pairs[habit->pair]);
-    return Habit(Uncapitalised(task), *habit, history.size());
+    return Habit(TaskWords(affordances, situation, habit->pair, phrases), *habit, history.size(),
+                 phrases);
   }
-  if (question.kind == QuestionKind::kFull) {
-    return belief.possible_pairs == 1 ? "it is the only task left"
-                                      : "of " + Count(belief.possible_pairs) +
-                                            " tasks that are possible this is the likeliest";
-  }
-  const std::string possible = Count(belief.possible_pairs) + " tasks are possible";
-  if (question.answers() == 2 && why.information_bits > kHalves)
-    return possible + " and either answer rules out about half";
-  return possible + " and this tells most about which it is";
+  const bool full = question.kind == QuestionKind::kFull;
+  if (full && belief.possible_pairs == 1) return phrases.only_task;
+  const bool halves = question.answers() == 2 && why.information_bits > kHalves;
+  const std::string& text = full     ? phrases.likeliest_task
+                            : halves ? phrases.halves
+                                     : phrases.tells_most;
+  return Fill(phrases, text, "count", Count(belief.possible_pairs, phrases));
 }
 
-std::string Outlook(const Question& question, const Belief& belief, const Why& why) {
+std::string Outlook(const Question& question, const Belief& belief, const Why& why,
+                    const Phrases& phrases) {
   const bool settles =
       std::any_of(why.prospects.begin(), why.prospects.end(),
                   [](const Prospect& p) { return p.accepts && p.probability > 0.5; });
-  if (settles && question.answers() == 2) return "a yes settles it";
+  if (settles && question.answers() == 2) return phrases.settles;
   const int left = static_cast<int>(std::lround(std::max(1.0, belief.expected_questions - 1)));
-  return left == 1 ? "about one more question will follow"
-                   : "about " + Count(left) + " more questions will follow";
-}
-
-std::string Percent(double probability) {
-  return std::to_string(std::lround(100 * probability)) + " %";
-}
-
-std::string AsSentence(std::string sentence) {
-  sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  return sentence + ".";
+  return left == 1 ? phrases.one_follows
+                   : Fill(phrases, phrases.more_follow, "count", Count(left, phrases));
 }
 
 }  // namespace
@@ -228,24 +224,26 @@ Why Explain(const Situation& situation, const UserHistory& history,
 
 std::string WhyText(const Affordances& affordances, const Situation& situation,
                     const UserHistory& history, const Belief& belief, const Question& question,
-                    const Why& why) {
-  return AsSentence(Reason(affordances, situation, history, belief, question, why) + "; " +
-                  Outlook(question, belief, why));
+                    const Why& why, const Phrases& phrases) {
+  const std::string reason =
+      Reason(affordances, situation, history, belief, question, why, phrases);
+  return Finished(Fill(
+      phrases, phrases.because,
+      {{"reason", {{"", reason}}}, {"outlook", {{"", Outlook(question, belief, why, phrases)}}}}));
 }
 
-std::string WhyWhatIsIt(const std::vector<std::pair<std::string, double>>& likeliest,
-                        bool in_doubt) {
-  if (!in_doubt) {
-    return "None of the tasks that I know was right, so an object may be another than I took it "
-           "for.";
-  }
-  std::string looks;
+std::string WhyWhatIsIt(const std::vector<std::pair<std::string, double>>& likeliest, bool in_doubt,
+                        const Phrases& phrases) {
+  if (!in_doubt) return Finished(phrases.looks_wrong);
+  std::string objects;
   for (const auto& [category, probability] : likeliest) {
-    looks += (looks.empty() ? "" : " or ") + WithArticle(Noun(category)) + " (" +
-             Percent(probability) + ")";
+    if (!objects.empty()) objects += phrases.list_or;
+    objects += Fill(phrases, phrases.looks,
+                    {{"object", {{"", ANoun(phrases, category)}}},
+                     {"percent", {{"", std::to_string(std::lround(100 * probability))}}}});
   }
-  return looks.empty() ? "I cannot tell what it is; your answer is remembered."
-                       : "It looks like " + looks + "; your answer is remembered.";
+  return Finished(objects.empty() ? phrases.looks_unclear
+                                  : Fill(phrases, phrases.looks_like, "objects", objects));
 }
 
 }  // namespace beckon::intention

@@ -47,11 +47,11 @@ Why Explain(const Situation& situation, const UserHistory& history,
 /// "You wanted to open the carton in 7 of the last 9 sessions; a yes settles it."
 std::string WhyText(const Affordances& affordances, const Situation& situation,
                     const UserHistory& history, const Belief& belief, const Question& question,
-                    const Why& why);
+                    const Why& why, const Phrases& phrases = English());
 
 /// Of the question what an object is. `likeliest`: categories it may be, with their probabilities.
 /// `in_doubt`: it is asked before any task, else because every known task was refused.
-std::string WhyWhatIsIt(const std::vector<std::pair<std::string, double>>& likeliest,
-                        bool in_doubt);
+std::string WhyWhatIsIt(const std::vector<std::pair<std::string, double>>& likeliest, bool in_doubt,
+                        const Phrases& phrases = English());
 
 }  // namespace beckon::intention
