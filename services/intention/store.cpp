@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// More than any learner looks back.
-constexpr int kMostSessions = 300;
+constexpr int kMostSessions = 1000;
 constexpr int kMostLabels = 500;
 
 /// What SQLite would say less clearly, or only with the first write.
