@@ -116,8 +116,8 @@ def noise_sources(lab, sessions, data):
     if data:
         published = lab.write("published", sessions.as_published("objects") + sessions.as_published("position"))
         simulated = [path for paths in local_simulated(data).values() for path in paths]
-        yield "published sessions", [published], 1 if lab.quick else 12
-        yield "simulated users of the data", simulated, 1 if lab.quick else 4
+        yield "published sessions", [published], 1 if lab.quick else 8
+        yield "simulated users of the data", simulated, 1 if lab.quick else 3
     users = 1 if lab.quick else 6 if data else 12
     made = [lab.simulate(kind, users, SESSIONS, FIRST_SEED + 2) for kind in KINDS]
     yield "simulated users of ten habits", made, 1
@@ -178,6 +178,7 @@ def plot_noise(report, errors):
 def time_per_question(lab, report, sessions, data):
     """One process at a time, so that nothing of ours is in the way."""
     lives = {name: scenarios for name, scenarios, _ in noise_sources(lab, sessions, data)}
+    lives["simulated users of ten habits"] = [lab.simulate(kind, 1, SESSIONS, FIRST_SEED + 3) for kind in KINDS]
     rows, everything = [], []
     figure, (axis,) = plots.panels(1, width=5.5)
     for way in ("adaptive", "adaptive, aof", "oain"):
