@@ -306,7 +306,9 @@ TEST_F(StoreTest, MergedBothWaysTwoDatabasesAreEqual) {
       ASSERT_TRUE(b->AddRows(*a->Rows()).ok());
       ASSERT_TRUE(b->ForgetUser("ann", 5).ok());
     }
-    if (i == 14) ASSERT_TRUE(a->ForgetLast("bob", 6).ok());
+    if (i == 14) {
+      ASSERT_TRUE(a->ForgetLast("bob", 6).ok());
+    }
   }
   ASSERT_TRUE(a->AddRows(*b->Rows()).ok());
   ASSERT_TRUE(b->AddRows(*a->Rows()).ok());
