@@ -54,7 +54,7 @@ class Report:
         head = ["# Experiments", HEAD_TEXT.format(version=version, command=command)]
         goals = ["## The figures to reach",
                  "\"must\" and \"aim\" are the design's. They will be judged on other groups, users and seeds of the "
-                 "same kinds; here groups 1 and 2 stand for them.",
+                 "same kinds; here groups 1 and 2 stand for them. Judged at the decimals shown.",
                  table(["what", "dissertation, published", "measured", "must", "aim"], self._goals)]
         parts = head + (goals if self._goals else []) + self._sections
         if self._skipped:
