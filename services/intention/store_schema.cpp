@@ -97,7 +97,8 @@ constexpr std::array<const char*, kSchemaVersion> kSteps = {
               (SELECT MAX(value) FROM json_each(a.value, '$.likelihoods'))) AS n_likeliest,
             (SELECT MIN(key) FROM json_each(a.value, '$.likelihoods') WHERE value =
               (SELECT MAX(value) FROM json_each(a.value, '$.likelihoods'))) AS likeliest
-          FROM sessions s, json_each(s.body, '$.answers') a);
+          FROM sessions s, json_each(s.body, '$.answers') a
+          WHERE json_extract(a.value, '$.fate') IS NOT 'dropped');
       CREATE VIEW error_counts AS
         SELECT user, device,
           SUM(n_answers = 2 AND meant = 0 AND said = 0) AS meant_yes_said_yes,

@@ -172,7 +172,8 @@ TEST_F(ConversationSceneTest, AnObjectThatMovesAtTheConfirmationIsAskedAboutAtIt
   Confirm();
   EXPECT_TRUE(desk.tasks.empty());
   desk.Watch(moved);
-  EXPECT_EQ(desk.queries.back().text, "The carton has moved. Once more, to be sure: open the carton?");
+  EXPECT_EQ(desk.queries.back().text,
+            "The carton has moved. Once more, to be sure: open the carton?");
   EXPECT_NE(desk.queries.back().id, asked.id);
   Confirm();
   ASSERT_EQ(desk.tasks.size(), 1u);
@@ -195,7 +196,8 @@ TEST_F(ConversationSceneTest, WhereNobodyLooksAnyMoreTheUserIsAskedAgain) {
   Confirm();
   desk.Wait(6 * kSecond);
   EXPECT_TRUE(desk.tasks.empty());
-  EXPECT_EQ(desk.queries.back().text, "The carton is out of sight. Once more, to be sure: open the carton?");
+  EXPECT_EQ(desk.queries.back().text,
+            "The carton is out of sight. Once more, to be sure: open the carton?");
   Confirm();
   EXPECT_EQ(desk.tasks.size(), 1u) << "the user can see it";
 }

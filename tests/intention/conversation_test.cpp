@@ -448,5 +448,41 @@ TEST_F(ConversationTest, NoisyDeviceNeedsMoreThanOneYes) {
   EXPECT_EQ(desk.events.back().kind, Kind::kBegun);  // not on one yes
 }
 
+TEST_F(ConversationTest, StartsOverOnceWhereAnswersMeanNothingAndThenGivesUp) {
+  desk.Announce("switch", 0.05f);
+  desk.Show(scene);
+  desk.Start();
+  std::vector<size_t> restarts;  // queries that say so
+  while (desk.events.back().kind == Kind::kBegun && desk.queries.size() < 400) {
+    const msg::Query query = desk.queries.back();
+    if (query.text.starts_with("I am not sure what you want."))
+      restarts.push_back(desk.queries.size());
+    desk.Answer(query, 0);  // a switch that is stuck
+  }
+  EXPECT_EQ(restarts.size(), 1u);
+  EXPECT_EQ(desk.events.back().kind, Kind::kAbandoned);
+  EXPECT_TRUE(desk.tasks.empty());
+  EXPECT_TRUE(memory.sessions.empty());
+}
+
+TEST_F(ConversationTest, LearnsNothingOfADeviceFromBeforeItStartedOver) {
+  desk.Announce("switch", 0.05f);
+  desk.Show(scene);
+  desk.Start();
+  while (!desk.queries.back().text.starts_with("I am not sure what you want.")) {
+    ASSERT_LT(desk.queries.size(), 200u);
+    desk.Answer(desk.queries.back(), 0);
+  }
+  EXPECT_EQ(desk.Converse(open_carton).kind, Kind::kConfirmed);
+  ASSERT_EQ(memory.sessions.size(), 1u);
+  const auto& answers = memory.sessions[0].answers;
+  EXPECT_EQ(answers.front().fate, AnswerFate::kDropped);
+  EXPECT_EQ(answers.back().fate, AnswerFate::kStands);
+  const UserHistory history = ToHistory(memory.sessions, desk.affordances);
+  const AnswerCounts& counts = history[0].answers.at("switch");
+  EXPECT_EQ(counts.meant_no_said_yes, 0);
+  EXPECT_EQ(counts.meant_yes_said_no, 0);
+}
+
 }  // namespace
 }  // namespace beckon::intention

@@ -236,6 +236,7 @@ TEST_F(StoreTest, CountsAreViews) {
   SessionRecord session = Session("s1");
   session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch"},  // no, rightly
                      {QuestionKind::kAction, {1, 0}, 1, "switch"},  // yes, wrongly
+                     {QuestionKind::kAction, {1, 0}, 1, "switch", AnswerFate::kDropped},
                      {QuestionKind::kFull, {0.9, 0.1}, 0, "speech"},
                      {QuestionKind::kFull, {0.5, 0.5}, 0, "speech"},  // undecided: taken as no
                      {QuestionKind::kChoice, {0.2, 0.7, 0.1}, 1, "page"},
