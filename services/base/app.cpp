@@ -68,6 +68,17 @@ int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options,
   }
 }
 
+std::function<std::string(const std::string&)> Within(double min, double max) {
+  return [min, max](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (!text.empty() && *end == '\0' && value >= min && value <= max) return {};
+    char expected[96];
+    std::snprintf(expected, sizeof(expected), "expected a number from %g to %g, found ", min, max);
+    return expected + text;
+  };
+}
+
 Result<ConfigTable> LoadConfig(const AppOptions& options) {
   return ConfigTable::Load(options.config_file);
 }

@@ -32,6 +32,9 @@ void AddAppOptions(CLI::App& app, AppOptions& options);
 int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options,
            const std::function<Status()>& body);
 
+/// For CLI::Option::check: a number from `min` to `max`, which NaN is not.
+std::function<std::string(const std::string&)> Within(double min, double max);
+
 /// Loads the --config file (empty table without one).
 Result<ConfigTable> LoadConfig(const AppOptions& options);
 

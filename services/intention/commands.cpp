@@ -42,15 +42,16 @@ CommandLine::CommandLine(CLI::App& app) {
       ->type_name("FILE")
       ->required();
   evaluate_command_
-      ->add_option("--flip", evaluate_.config.flip, "Probability that an answer is the opposite")
-      ->check(CLI::Range(0.0, 0.5));
+      ->add_option("--flip", evaluate_.config.flip,
+                   "Probability that an answer is not the one that is meant")
+      ->check(Within(0.0, 0.5));
   evaluate_command_
       ->add_option("--assume-flip", assume_flip_,
                    "What the policy believes of it (default: with --flip 0 that no "
                    "answer is wrong, else it learns the rate)")
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(Within(0.0, 0.5));
   evaluate_command_->add_option("--lambda", evaluate_.lambda, "Learning rate of oain (default: 1)")
-      ->check(CLI::Range(0.001, 1000.0));
+      ->check(Within(0.001, 1000.0));
   evaluate_command_
       ->add_option("--explain", evaluate_.explain,
                    "Tell every session question by question (default: on standard output)")

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "services/base/app.h"
+
 namespace beckon::intention {
 
 void AddInterfaceOptions(CLI::App& command, Interface& interface) {
@@ -22,12 +24,12 @@ void AddInterfaceOptions(CLI::App& command, Interface& interface) {
       ->capture_default_str();
   command
       .add_option("--seconds-per-question", interface.seconds_per_question, "Time of a question")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(Within(0.001, 1000.0))
       ->capture_default_str();
   command
       .add_option("--seconds-per-option", interface.seconds_per_option,
                   "Time that each answer of a question adds; of a scan: each one shown")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(Within(0.0, 1000.0))
       ->capture_default_str();
 }
 

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "services/base/app.h"
+
 namespace beckon::intention {
 namespace {
 
@@ -44,7 +46,7 @@ CLI::App* AddSimulateCommand(CLI::App& app, SimulateOptions& options) {
   command
       ->add_option("--repeat", simulation.repeat,
                    "Probability of wanting the same as in the last session, where it is there")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(Within(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--seed", simulation.seed, "The same seed makes the same users")
       ->capture_default_str();

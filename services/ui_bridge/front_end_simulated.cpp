@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "services/base/app.h"
 #include "services/base/run_loop.h"
 #include "services/base/scene_truth.h"
 #include "services/ui_bridge/front_end.h"
@@ -176,7 +177,7 @@ class SimulatedFactory final : public FrontEndFactory {
     group->add_option("--sessions", config_.sessions, "Conversations before it leaves")
         ->check(CLI::Range(1, 1'000'000));
     group->add_option("--flip", config_.user.flip, "Chance that an answer comes out wrong")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(Within(0.0, 1.0));
     group->add_option("--seed", config_.user.seed, "Of those chances");
     static const std::map<std::string, msg::InterfaceKind> kinds = {
         {"yesno", msg::InterfaceKind::kYesNo},
@@ -190,13 +191,13 @@ class SimulatedFactory final : public FrontEndFactory {
         ->check(CLI::Range(2, 64))
         ->capture_default_str();
     group->add_option("--seconds-per-question", interface.seconds_per_question, "As it announces")
-        ->check(CLI::Range(0.001, 3600.0))
+        ->check(Within(0.001, 3600.0))
         ->capture_default_str();
     group->add_option("--seconds-per-option", interface.seconds_per_option, "As it announces")
-        ->check(CLI::Range(0.0, 3600.0))
+        ->check(Within(0.0, 3600.0))
         ->capture_default_str();
     group->add_option("--think", config_.think_s, "Seconds before each answer")
-        ->check(CLI::Range(0.0, 3600.0));
+        ->check(Within(0.0, 3600.0));
   }
 
   Result<std::unique_ptr<FrontEnd>> Create(const FrontEndSetup& setup) override {
