@@ -25,8 +25,11 @@ class LearnerTest : public testing::Test {
   int Task(const char* category, const char* action) const {
     return tasks.Find(a.FindCategory(category), a.FindAction(action));
   }
-  double Of(const Learner& who, int task) const {
-    return who.Predict(everything)[static_cast<size_t>(task)];
+  double Of(const Learner& who, int task, Utime utime = 0) const {
+    return who.Predict(everything, utime)[static_cast<size_t>(task)];
+  }
+  static Utime At(int day, double hour) {
+    return (20'000 + day) * kDay + static_cast<Utime>(hour * 3'600) * kSecond;
   }
   std::vector<double> Without(const char* category) const {
     std::vector<double> there = everything;
@@ -45,6 +48,7 @@ class LearnerTest : public testing::Test {
     }
   }
 
+  static constexpr Utime kDay = Utime{86'400} * kSecond;
   const Affordances a = TestAffordances();
   const Situation s = MakeSituation(a, OneOfEach(a));
   const Tasks tasks{s, {}};
@@ -117,6 +121,57 @@ TEST_F(LearnerTest, LearnsWhatFollows) {
   // Something else in between: nothing is known to follow it.
   learner.Learn(Task("Can", "Pour"), everything);
   EXPECT_LT(Of(learner, routine[0]), 0.6);
+}
+
+TEST_F(LearnerTest, LearnsWhatIsWantedAtWhichTimeOfDay) {
+  const std::array<int, 3> tasks_of_day = {Task("Carton", "Pour"), Task("Mug", "Drink"),
+                                           Task("Tub", "Push")};
+  const std::array<double, 3> hours = {7.5, 16, 23.8};
+  Learner timeless(tasks);
+  std::mt19937_64 random(4);
+  for (int day = 0; day < 40; ++day) {
+    for (size_t i = 0; i < 3; ++i) {
+      if (random() % 3 == 0) continue;  // not every day: what follows what changes
+      const double late = static_cast<double>(random() % 100) / 200;
+      learner.Learn(tasks_of_day[i], everything, At(day, hours[i] + late));
+      timeless.Learn(tasks_of_day[i], everything);
+    }
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_GT(Of(learner, tasks_of_day[i], At(50, hours[i] + 0.3)), 0.85) << i;
+    EXPECT_LT(Of(learner, tasks_of_day[i], At(50, hours[(i + 1) % 3])), 0.1) << i;
+    EXPECT_LT(Of(timeless, tasks_of_day[i]), 0.75) << i;
+  }
+  EXPECT_NEAR(Sum(learner.Predict(Without("Mug"), At(50, 16))), 1, 1e-9);
+}
+
+TEST_F(LearnerTest, PaysLittleForTimesThatMeanNothing) {
+  const std::array<int, 3> wants = {Task("Carton", "Pour"), Task("Mug", "Drink"),
+                                    Task("Tub", "Push")};
+  Learner timeless(tasks);
+  std::mt19937_64 random(6);
+  double bits = 0, bits_timeless = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int task = wants[random() % 3];
+    const Utime now = At(i, static_cast<double>(random() % 24));
+    bits -= std::log2(Of(learner, task, now));
+    bits_timeless -= std::log2(Of(timeless, task));
+    learner.Learn(task, everything, now);
+    timeless.Learn(task, everything);
+  }
+  EXPECT_LT(bits, 1.01 * bits_timeless);
+}
+
+TEST_F(LearnerTest, DoesWithoutATimeWhatItDidWithout) {
+  Learner timeless(tasks);
+  for (int i = 0; i < 60; ++i) {
+    const int task = (i * i) % tasks.count();
+    learner.Learn(task, everything, At(i, i % 24));
+    timeless.Learn(task, everything);
+    EXPECT_EQ(timeless.Predict(everything), timeless.Predict(everything, At(i, i % 24)));
+    EXPECT_NEAR(Sum(learner.Predict(everything)), 1, 1e-9);  // a time that is not known
+    EXPECT_NEAR(Sum(learner.Predict(everything, -5 * kDay - 1)), 1, 1e-9);
+  }
 }
 
 TEST_F(LearnerTest, DoesNotHoldItsAbsenceAgainstATask) {

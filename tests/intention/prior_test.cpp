@@ -74,6 +74,21 @@ TEST_F(Prior, LooksBackSoFarAndNoFurther) {
   EXPECT_EQ(PriorOver(s, longer), prior);
 }
 
+TEST_F(Prior, KnowsTheTimeOfDay) {
+  UserHistory history;
+  for (int i = 0; i < 60; ++i) {
+    const bool morning = (i * i / 3) % 2 == 0;
+    PastSession past = morning ? Past("Carton", "Pour") : Past("Mug", "Drink");
+    past.utime = (i + 1) * 24 * 3'600 * kSecond + (morning ? 8 : 20) * 3'600 * kSecond;
+    history.push_back(past);
+  }
+  Situation morning = s, evening = s;
+  morning.utime = (100 * 24 + 8) * 3'600 * kSecond;
+  evening.utime = (100 * 24 + 20) * 3'600 * kSecond;
+  EXPECT_GT(Of(PriorOver(morning, history), "Carton", 1, "Pour"), 0.85);
+  EXPECT_GT(Of(PriorOver(evening, history), "Mug", 1, "Drink"), 0.85);
+}
+
 TEST_F(Prior, KeepsToTheFavouriteInstance) {
   PastSession past = Past("Mug", "Drink", 2);
   past.present = Situation(s).Present(a);

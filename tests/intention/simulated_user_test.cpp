@@ -166,6 +166,35 @@ TEST_F(SimulatedUserTest, RoutineUsersLiveByTheClock) {
   EXPECT_EQ(Live("sparse", 1)[0].utime, 0);
 }
 
+TEST_F(SimulatedUserTest, TimetablesHaveTimesButNoOrder) {
+  const auto lived = Live("timetable", 400);
+  std::map<Utime, std::map<Want, int>> by_half_hour;
+  std::map<Want, std::map<Want, int>> by_last;
+  std::map<Utime, int> by_day;
+  for (size_t i = 0; i < lived.size(); ++i) {
+    const Utime half_hours = lived[i].utime / (1'800 * kSecond);
+    ++by_half_hour[half_hours % 48][WantOf(lived[i])];
+    ++by_day[half_hours / 48];
+    if (i == 0) continue;
+    EXPECT_GE(lived[i].utime, lived[i - 1].utime);
+    ++by_last[WantOf(lived[i - 1])][WantOf(lived[i])];
+  }
+  const auto usual = [](const auto& groups) {  // how often the commonest want of a group
+    int sum = 0;
+    for (const auto& [group, wants] : groups) {
+      int most = 0;
+      for (const auto& [want, times] : wants) most = std::max(most, times);
+      sum += most;
+    }
+    return sum;
+  };
+  EXPECT_GT(usual(by_half_hour), 240);
+  EXPECT_GT(usual(by_half_hour), usual(by_last) + 30);
+  std::set<int> sessions_a_day;
+  for (const auto& [day, sessions] : by_day) sessions_a_day.insert(sessions);
+  EXPECT_GE(sessions_a_day.size(), 4u);
+}
+
 TEST_F(SimulatedUserTest, DevotedUsersKeepToOneThing) {
   const auto same_category = [](const auto& a, const auto& b) {
     return a.want_category == b.want_category;

@@ -95,7 +95,7 @@ class Conversation {
   bool TakeScene(Talk& talk, Utime now);
   void WaitFor(Talk& talk, const std::string& what, Utime now);
   void CheckCategory(const msg::SceneObject& object);
-  InterviewInput InputOf(Talk& talk);
+  InterviewInput InputOf(Talk& talk, Utime now);
   /// The table as the talk knows it now; looks up what is remembered of new objects.
   std::vector<TableObject> TableOf(Talk& talk);
   bool IsLate(const msg::Scene& scene, Utime now) const;

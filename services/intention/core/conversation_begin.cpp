@@ -101,7 +101,7 @@ void Conversation::TryBegin(Talk& talk, Utime now) {
   if (poses_.utime < talk.scene_utime && now < talk.ask_by)
     return WaitFor(talk, Finished(config_.phrases.waiting_for_poses), now);
   talk.waits_for.clear();
-  talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk));
+  talk.interview = std::make_unique<Interview>(affordances_, policy_, InputOf(talk, now));
   AnnounceRunning(talk, now);
   Advance(talk, now);
 }
@@ -143,7 +143,7 @@ void Conversation::CheckCategory(const msg::SceneObject& object) {
                              name + "', it counts as Unknown; add it to affordances.toml");
 }
 
-InterviewInput Conversation::InputOf(Talk& talk) {
+InterviewInput Conversation::InputOf(Talk& talk, Utime now) {
   InterviewInput input;
   const auto sessions = memory_.SessionsOf(talk.user);
   if (!sessions) Refuse(kSessionChannel, sessions.error().message);
@@ -152,6 +152,7 @@ InterviewInput Conversation::InputOf(Talk& talk) {
   input.device = talk.device;
   input.devices = devices_;
   input.phrases = config_.phrases;
+  input.utime = now;
   input.seed = Hash(talk.session_id);
   return input;
 }

@@ -60,7 +60,7 @@ SessionOutcome Evaluation::Live(const ScenarioSession& session, SessionWatcher* 
   User& user = Find(session.user);
   const uint64_t seed = config_.seed * 1'000'003 + sessions_++;
   std::mt19937_64 random(seed);
-  const Situation situation = MakeSituation(affordances_, session.scene);
+  const Situation situation = MakeSituation(affordances_, session.scene, session.utime);
   const int want = situation.Find(session.want_category, session.want_rank, session.want_action);
 
   SessionOutcome outcome;

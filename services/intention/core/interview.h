@@ -37,6 +37,7 @@ struct InterviewInput {
   UserHistory history;
   std::string device;  // that requested the session
   std::map<std::string, DeviceModel> devices;
+  Utime utime = 0;  // when it began; 0: not known
   uint64_t seed = 0;
   Phrases phrases = English();
 };

@@ -49,7 +49,7 @@ Situation Interview::SituationNow() const {
   for (size_t i = 0; i < input_.table.size(); ++i) {
     if (input_.table[i].gone) things[i] = {-1, furthest_m + kBehind_m, rightmost_m + kBehind_m};
   }
-  return MakeSituation(affordances_, things);
+  return MakeSituation(affordances_, things, input_.utime);
 }
 
 /// To refuse all that is on offer is a sure no to the objects that are there.

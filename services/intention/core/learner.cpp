@@ -15,7 +15,7 @@ size_t Index(int i) { return static_cast<size_t>(i); }
 }  // namespace
 
 Learner::Learner(const Tasks& tasks)
-    : tasks_(tasks), habit_(tasks), followed_(Index(tasks.count())) {}
+    : tasks_(tasks), habit_(tasks), timetable_(tasks), followed_(Index(tasks.count())) {}
 
 Learner::Grid Learner::Prior() {
   Grid prior;
@@ -53,11 +53,17 @@ Learner::Reasons Learner::Weigh(const Past& past) const {
   return mean;
 }
 
-std::vector<double> Learner::Predict(const std::vector<double>& there) const {
+std::vector<double> Learner::Predict(const std::vector<double>& there, Utime utime) const {
   const Past past = Recall(there);
   const Reasons reasons = Weigh(past);
   std::vector<double> p = habit_.Predict(there);
-  for (double& x : p) x *= reasons.habit;
+  const Timetable::Hour hour = timetable_.At(utime, there);
+  const double timetable = timetable_.Reason(hour);
+  for (size_t t = 0; t < p.size(); ++t) {
+    const int task = static_cast<int>(t);
+    const double timely = there[Index(tasks_.category(task))] * timetable_.Probability(hour, task);
+    p[t] = reasons.habit * (timetable * timely + (1 - timetable) * p[t]);
+  }
   if (last_ >= 0) p[Index(last_)] += reasons.again;
   if (past.followers <= 0) return p;
   const std::vector<double>& next = followed_[Index(last_)];
@@ -68,23 +74,28 @@ std::vector<double> Learner::Predict(const std::vector<double>& there) const {
   return p;
 }
 
-void Learner::Learn(int task, const std::vector<double>& there) {
+void Learner::Learn(int task, const std::vector<double>& there, Utime utime) {
   const Past past = Recall(there);
   const Reasons reasons = Weigh(past);
   const double habit = habit_.Probability(task, there);
+  const Timetable::Hour hour = timetable_.At(utime, there);
+  const double timetable = timetable_.Reason(hour);
+  const double timely = timetable * timetable_.Probability(hour, task);
+  const double usual = timely + (1 - timetable) * habit;
   const double same = task == last_ ? 1 : 0;
   const double next =
       past.followers > 0 ? followed_[Index(last_)][Index(task)] / past.followers : 0;
   const double other = reasons.again * same + reasons.follows * next;
-  const double evidence = reasons.habit * habit + other;
-  habit_.Learn(task, there, reasons.habit, other);
+  const double evidence = reasons.habit * usual + other;
+  habit_.Learn(task, there, reasons.habit * (1 - timetable), reasons.habit * timely + other);
+  timetable_.Learn(hour, task, habit, reasons.habit, other);
 
   static const Grid kPrior = Prior();
   for (size_t r = 0; r < kRepeats.size(); ++r) {
     const double again = past.repeatable * kRepeats[r];
     for (size_t d = 0; d < kDoubts.size(); ++d) {
       const double likelihood =
-          again * same + (1 - again) * (past.trust[d] * next + (1 - past.trust[d]) * habit);
+          again * same + (1 - again) * (past.trust[d] * next + (1 - past.trust[d]) * usual);
       grid_[r][d] *= (1 - kShare) * likelihood / evidence;
       grid_[r][d] += kShare * kPrior[r][d];
     }

@@ -6,22 +6,25 @@
 
 #include "services/intention/core/habit.h"
 #include "services/intention/core/tasks.h"
+#include "services/intention/core/timetable.h"
 
 namespace beckon::intention {
 
-/// A want has one of three reasons: the same task again; what followed the last task before; or
-/// habit. How often it is which is the user's own: a grid of possible users, weighed by how well
-/// each predicted this one (Bayes), with a little of the prior coming back each session so that the
-/// weights follow a change (fixed share, Herbster & Warmuth 1998). See docs/intention.md.
+/// A want has one of four reasons: the same task again; what followed the last task before; what is
+/// wanted at this time of day; or habit. How often it is which is the user's own: a grid of
+/// possible users, weighed by how well each predicted this one (Bayes), with a little of the prior
+/// coming back each session so that the weights follow a change (fixed share, Herbster & Warmuth
+/// 1998). See docs/intention.md.
 class Learner {
  public:
   /// `tasks` must outlive the learner.
   explicit Learner(const Tasks& tasks);
 
-  /// P(task | what is there) for every task; 0 for those that are not there.
-  std::vector<double> Predict(const std::vector<double>& there) const;
+  /// P(task | what is there, when) for every task; 0 for those that are not there. `utime` 0: not
+  /// known.
+  std::vector<double> Predict(const std::vector<double>& there, Utime utime = 0) const;
   /// The task was wanted. `there` is 1 or 0 by category (Presence), 1 for the task's.
-  void Learn(int task, const std::vector<double>& there);
+  void Learn(int task, const std::vector<double>& there, Utime utime = 0);
 
  private:
   /// How often the last task is wanted again where it is there.
@@ -40,7 +43,7 @@ class Learner {
   struct Reasons {
     double again = 0;
     double follows = 0;
-    double habit = 0;
+    double habit = 0;  // or timetable
   };
 
   static Grid Prior();
@@ -50,6 +53,7 @@ class Learner {
 
   const Tasks& tasks_;
   Habit habit_;
+  Timetable timetable_;
   Grid grid_ = Prior();  // posterior
   int last_ = -1;
   std::vector<std::vector<double>> followed_;  // by task, then by task that came next

@@ -28,12 +28,12 @@ std::vector<double> PriorOver(const Situation& situation, const UserHistory& his
     tasks.Look(session, presence);
     const int task = tasks.Find(session.category, session.action);
     const int category = tasks.category(task);
-    learner.Learn(task, presence.there);
+    learner.Learn(task, presence.there, session.utime);
     instances.Learn(category, session.rank, presence.instances[static_cast<size_t>(category)]);
   }
 
   presence = tasks.Look(situation);
-  const std::vector<double> wanted = learner.Predict(presence.there);
+  const std::vector<double> wanted = learner.Predict(presence.there, situation.utime);
   std::vector<std::vector<double>> choice;  // by category, the likeliest instance 1
   for (int c = 0; c < tasks.categories(); ++c) {
     choice.push_back(instances.Predict(c, presence.instances[static_cast<size_t>(c)]));

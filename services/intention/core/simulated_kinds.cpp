@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kSlip = 0.1;           // P(something else than the habit says)
 constexpr double kNewHabit = 1.0 / 50;  // a session, where habits end by chance
+constexpr Utime kDay = Utime{86'400} * kSecond;
+constexpr Utime kFirstDay = Utime{1'767'571'200} * kSecond;  // 2026-01-05, a Monday
 
 /// Has tastes, finds a new random table each time, and wants what is nearest.
 class TastefulUser : public SimulatedUser {
@@ -159,10 +161,9 @@ class RoutineUser : public TastefulUser {
     }
   }
   Utime NextTime(SeededRandom& random) override {
-    constexpr Utime kFirstDay = Utime{1'767'571'200} * kSecond;  // 2026-01-05, a Monday
     const size_t slots = day_.size();
     const double hour = day_[lived_ % slots].hour + random.Between(-0.4, 0.4);
-    const Utime day = static_cast<Utime>(lived_ / slots) * 86'400 * kSecond;
+    const Utime day = static_cast<Utime>(lived_ / slots) * kDay;
     return kFirstDay + day + static_cast<Utime>(hour * 3'600) * kSecond;
   }
   int Choose(const Situation& table, SeededRandom& random) override {
@@ -178,6 +179,64 @@ class RoutineUser : public TastefulUser {
   };
   std::vector<Slot> day_;
   size_t lived_ = 0;
+};
+
+/// Wants each of a few things about its time on some days, and now and then something in between.
+class TimetableUser : public TastefulUser {
+ public:
+  TimetableUser(const Affordances& affordances, const SimulationConfig&, SeededRandom& random)
+      : TastefulUser(affordances, random) {
+    const auto pairs = AllTastes(affordances);
+    const int customs = 4 + random.Below(5);
+    for (int i = 0; i < customs; ++i) {
+      Custom& custom = customs_.emplace_back();
+      custom.hour = random.Between(7, 22);
+      custom.spread_h = random.Between(0.2, 0.8);
+      custom.often = random.Between(0.4, 0.9);
+      custom.taste = pairs[random.Below(static_cast<int>(pairs.size()))];
+    }
+  }
+  Utime NextTime(SeededRandom& random) override {
+    while (today_.empty()) BeginDay(random);
+    now_ = today_.back();
+    today_.pop_back();
+    return kFirstDay + days_ * kDay + static_cast<Utime>(now_.hour * 3'600) * kSecond;
+  }
+  int Choose(const Situation& table, SeededRandom& random) override {
+    if (now_.custom < 0) return tastes_.Draw(table, random);
+    const auto [category, action] = customs_[now_.custom].taste;
+    const int usual = table.Find(category, 1, action);
+    return usual >= 0 && !random.Chance(kSlip) ? usual : tastes_.Draw(table, random);
+  }
+
+ private:
+  struct Custom {
+    double hour = 0;
+    double spread_h = 0;  // at most earlier or later
+    double often = 0;     // P(on a day)
+    Taste taste;
+  };
+  struct Moment {
+    double hour = 0;
+    int custom = -1;  // index in customs_; -1: anything
+  };
+  void BeginDay(SeededRandom& random) {
+    ++days_;
+    for (int i = 0; i < static_cast<int>(customs_.size()); ++i) {
+      const auto& [hour, spread_h, often, taste] = customs_[i];
+      if (random.Chance(often)) today_.push_back({hour + random.Between(-spread_h, spread_h), i});
+    }
+    for (int others = random.Below(3); others > 0; --others) {
+      today_.push_back({random.Between(7, 22), -1});
+    }
+    std::sort(today_.begin(), today_.end(),
+              [](const Moment& a, const Moment& b) { return a.hour > b.hour; });
+  }
+
+  std::vector<Custom> customs_;
+  std::vector<Moment> today_;  // still to come, the last one first
+  Moment now_;
+  int days_ = 0;
 };
 
 /// Does things in two or three steps with one and the same object: grasp, open, pour.
@@ -262,6 +321,8 @@ const std::vector<SimulatedKind>& SimulatedKinds() {
       {"sparse", "a few wants, others from the middle of the sessions on", false, Make<SparseUser>},
       {"routine", "the same wants at the same times of each day, with slips", false,
        Make<RoutineUser>},
+      {"timetable", "a want at about its time on some days, others at any time", false,
+       Make<TimetableUser>},
       {"object-first", "one category for a while, several actions", false,
        DevotedUser::Make<To::kCategory>},
       {"action-first", "one action for a while, several categories", false,

@@ -41,9 +41,11 @@ int Situation::Find(int category, int rank, int action) const {
   return -1;
 }
 
-Situation MakeSituation(const Affordances& affordances, const std::vector<Thing>& things) {
+Situation MakeSituation(const Affordances& affordances, const std::vector<Thing>& things,
+                        Utime utime) {
   assert(things.size() <= kMaxThings);
   Situation situation;
+  situation.utime = utime;
   for (size_t i = 0; i < things.size(); ++i) {
     const Thing& thing = things[i];
     int nearer = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/base/utime.h"
 #include "services/intention/core/affordances.h"
 
 namespace beckon::intention {
@@ -38,6 +39,7 @@ struct Situation {
   std::vector<Instance> objects;
   std::vector<Pair> pairs;   // by object, then action
   bool has_lateral = false;  // whether the objects differ in lateral_m
+  Utime utime = 0;           // when; 0: not known
 
   int pair_count() const { return static_cast<int>(pairs.size()); }
   /// Objects of a category, as a mask.
@@ -52,6 +54,7 @@ struct Situation {
 };
 
 /// Equal distances are ranked in input order. At most kMaxThings things.
-Situation MakeSituation(const Affordances& affordances, const std::vector<Thing>& things);
+Situation MakeSituation(const Affordances& affordances, const std::vector<Thing>& things,
+                        Utime utime = 0);
 
 }  // namespace beckon::intention
