@@ -12,7 +12,7 @@ from summaries import Errors, mean, mean_over_users, of_sessions
 
 SESSIONS = 200
 SECONDS_TEXT = """\
-Simulated users of all ten habits, {users} of each with {sessions} sessions, seed {seed}. A question takes its seconds
+Simulated users of all habits, {users} of each with {sessions} sessions, seed {seed}. A question takes its seconds
 and those of each answer shown, "none of these" among them; a scan ends with the wanted item. A P300-like device takes
 longer and is wrong in 10 % of its answers, which the policy is not told. The seconds are assumptions; what counts is
 the difference between rows of equal seconds."""

@@ -5,8 +5,8 @@ import random
 from itertools import groupby
 
 GROUPS = (1, 2)
-KINDS = ("sparse", "routine", "object-first", "action-first", "sequence", "drift", "sudden", "favourite-instance",
-         "household", "new-every-time")
+KINDS = ("sparse", "routine", "timetable", "object-first", "action-first", "sequence", "drift", "sudden",
+         "favourite-instance", "household", "new-every-time")
 FIRST_SEED = 1001  # simulated users of the experiments; those below are for developing on
 
 

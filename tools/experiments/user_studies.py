@@ -65,7 +65,7 @@ def simulated_kinds(lab, report):
     users = 3 if lab.quick else 20
     ways = ("adaptive", "adaptive, aof", "oain", "count")
     scenarios = {kind: lab.simulate(kind, users, SESSIONS, FIRST_SEED) for kind in KINDS}
-    runs = iter(lab.live("simulated users of ten habits",
+    runs = iter(lab.live("simulated users of all habits",
                          [Run(scenario, *WAYS[way]) for scenario in scenarios.values() for way in ways]))
     rows, spans = [], {way: [] for way in ways}
     for kind in KINDS:
@@ -86,7 +86,7 @@ def simulated_kinds(lab, report):
     axis.invert_yaxis()
     plots.legend_below(figure, axis, 4)
     report.section(
-        "Simulated users of ten habits",
+        "Simulated users of all habits",
         KINDS_TEXT.format(users=users, sessions=SESSIONS, seed=FIRST_SEED),
         table(["mean questions", *(f"`{way}`" for way in ways), "late"], rows),
         plots.save(figure, report, "simulated-kinds", "Mean questions by kind of simulated user"))
@@ -120,7 +120,7 @@ def noise_sources(lab, sessions, data):
         yield "simulated users of the data", simulated, 1 if lab.quick else 3
     users = 1 if lab.quick else 6 if data else 12
     made = [lab.simulate(kind, users, SESSIONS, FIRST_SEED + 2) for kind in KINDS]
-    yield "simulated users of ten habits", made, 1
+    yield "simulated users of all habits", made, 1
 
 
 def wrong_answers(lab, report, sessions, data):
@@ -178,7 +178,7 @@ def plot_noise(report, errors):
 def time_per_question(lab, report, sessions, data):
     """One process at a time, so that nothing of ours is in the way."""
     lives = {name: scenarios for name, scenarios, _ in noise_sources(lab, sessions, data)}
-    lives["simulated users of ten habits"] = [lab.simulate(kind, 1, SESSIONS, FIRST_SEED + 3) for kind in KINDS]
+    lives["simulated users of all habits"] = [lab.simulate(kind, 1, SESSIONS, FIRST_SEED + 3) for kind in KINDS]
     rows, everything = [], []
     figure, (axis,) = plots.panels(1, width=5.5)
     for way in ("adaptive", "adaptive, aof", "oain"):
