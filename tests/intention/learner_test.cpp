@@ -207,6 +207,11 @@ TEST(InstanceHabit, TakesTheNearestAtFirst) {
   EXPECT_NEAR(habit.Predict(0, 1)[0], 1, 1e-12);
 }
 
+TEST(InstanceHabit, PutsNoneOutOfReach) {
+  const InstanceHabit habit(1);
+  for (const double p : habit.Predict(0, 60)) EXPECT_GT(p, 1e-4);
+}
+
 TEST(InstanceHabit, KeepsFavouritesApart) {
   InstanceHabit habit(2);
   for (int i = 0; i < 12; ++i) {

@@ -9,6 +9,8 @@ namespace {
 
 /// The nearest 7 times in 10, the next one 7 times in 10 of the rest, ..: as many pseudo-counts.
 constexpr double kNearest = 0.7;
+/// Pseudo-counts that any instance shares, so that none is out of reach however many there are.
+constexpr double kAny = 0.02;
 /// Pseudo-counts of the general habit beside those of a category.
 constexpr double kGeneral = 1;
 constexpr double kForgetting = 0.95;
@@ -33,7 +35,8 @@ std::array<double, InstanceHabit::kWays> InstanceHabit::Ways(int category, int r
   const int near_place = rank - 1, far_place = instances - rank;
   double prior = kNearest, near = 0, far = 0, near_sum = 0, far_sum = 0, own_sum = kGeneral;
   for (int place = 0; place < instances; ++place, prior *= 1 - kNearest) {
-    const double from_near = near_.Of(place) + prior, from_far = far_.Of(place) + prior;
+    const double pseudo = prior + kAny / instances;
+    const double from_near = near_.Of(place) + pseudo, from_far = far_.Of(place) + pseudo;
     if (place == near_place) near = from_near;
     if (place == far_place) far = from_far;
     near_sum += from_near;
