@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace beckon::tool {
@@ -12,9 +14,11 @@ namespace {
 using ::testing::HasSubstr;
 
 Result<Catalogue> Make(const std::string& toml) {
-  const std::string path = ::testing::TempDir() + "catalogue_test.toml";
+  const std::string path = ::testing::TempDir() + std::to_string(getpid()) + "_catalogue_test.toml";
   std::ofstream(path) << toml;
-  return Catalogue::Load(path);
+  auto catalogue = Catalogue::Load(path);
+  std::filesystem::remove(path);
+  return catalogue;
 }
 
 const char kToml[] =

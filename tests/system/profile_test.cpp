@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace beckon::tool {
@@ -13,9 +15,11 @@ using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
 Result<Profile> Load(const std::string& toml) {
-  const std::string path = ::testing::TempDir() + "profile_test.toml";
+  const std::string path = ::testing::TempDir() + std::to_string(getpid()) + "_profile_test.toml";
   std::ofstream(path) << toml;
-  return LoadProfile(path);
+  auto profile = LoadProfile(path);
+  std::filesystem::remove(path);
+  return profile;
 }
 
 TEST(Profile, TheOneThatShipsRunsAllFiveServices) {

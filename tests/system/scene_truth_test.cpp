@@ -2,16 +2,21 @@
 #include "services/base/scene_truth.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace beckon {
 namespace {
 
 Result<SceneTruth> Read(const std::string& json) {
-  const std::string path = ::testing::TempDir() + "scene_truth_test.json";
+  const std::string path =
+      ::testing::TempDir() + std::to_string(getpid()) + "_scene_truth_test.json";
   std::ofstream(path) << json;
-  return ReadSceneTruth(path);
+  auto truth = ReadSceneTruth(path);
+  std::filesystem::remove(path);
+  return truth;
 }
 
 TEST(SceneTruth, ReadsObjectsAndLeavesOtherKeysAlone) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -135,7 +136,7 @@ TEST_F(SupervisorTest, ChildrenHearSignalsThatWeBlock) {
 
 TEST(LastLine, IsBoundedAndEmptyWhereThereIsNone) {
   EXPECT_EQ(LastLine("/nowhere/log"), "");
-  const std::string path = ::testing::TempDir() + "last_line_test.log";
+  const std::string path = ::testing::TempDir() + std::to_string(getpid()) + "_last_line_test.log";
   std::ofstream(path) << "first\n" << std::string(100'000, 'x') << "\n\n  \n";
   EXPECT_EQ(LastLine(path), std::string(300, 'x'));
 }
