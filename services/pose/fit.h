@@ -9,6 +9,7 @@
 
 #include "services/base/geometry.h"
 #include "services/base/result.h"
+#include "services/base/rim.h"
 #include "services/pose/fit_adaptive.h"
 #include "services/pose/fit_multiscale.h"
 #include "services/pose/superquadric.h"
@@ -36,6 +37,8 @@ struct FitInput {
   std::span<const Eigen::Vector3f> points_F;              // m; NaN and infinite points are left out
   std::optional<Plane> table_F;                           // normal up; the object stands on it
   Eigen::Vector3d viewpoint_F = Eigen::Vector3d::Zero();  // where the camera was
+  // What the image shows around the object; empty where the points are all that is known.
+  std::span<const RimPoint> rim_F;
 };
 
 struct FitResult {
@@ -43,6 +46,8 @@ struct FitResult {
   bool converged = false;
   std::string reason;      // why not; empty otherwise
   bool ambiguous = false;  // a clearly different shape explains the points about as well
+  std::vector<Superquadric> alternatives;  // those shapes, likeliest first
+  std::vector<Superquadric> parts;         // where one superquadric does not do: two or more
   double mean_radial_distance_m = 0;
   // Of position (m) and rotation vector (rad) in F, from the Gauss-Newton Hessian scaled by the
   // mean squared residual; directions that the points do not determine (the turn of a can) have the
