@@ -16,10 +16,13 @@ constexpr int kWidestMargin_px = 16;  // columns and rows without depth along th
 constexpr int kBeyond = 3;            // pixels beyond a gap whose median tells the depth there
 constexpr int kTangent_px = 3;        // along the contour to either side, for its direction
 constexpr int kRays = 2;              // to either side of a point, that decide with its own
+constexpr size_t kMostRays = 256;     // of one contour, evenly spread
 constexpr int kSmallestPart = 20;     // a piece of an object with a smaller part of it is noise
 
 /// What one ray sees.
 struct Look {
+  Pixel rim;
+  float rim_m = 0;  // depth of the object there
   enum Kind { kStep, kNothing, kBorder, kItself } kind = kNothing;
   float step_m = 0;  // how much farther than the rim the surface beyond is
 };
@@ -84,6 +87,9 @@ class Lookout {
   const Field field_;
 };
 
+/// Many times faster than std::lround.
+int Round(float x) { return static_cast<int>(x + (x < 0 ? -0.5f : 0.5f)); }
+
 float Median(float* begin, float* end) {
   float* middle = begin + (end - begin - 1) / 2;
   std::nth_element(begin, middle, end);
@@ -134,34 +140,37 @@ float Lookout::DepthAtRimsRay(Pixel rim, Pixel beyond) const {
 Look Lookout::Outward(const std::vector<Pixel>& contour, size_t at) const {
   const Pixel rim = contour[at];
   const uint16_t label = labels_.At(rim);
-  const float rim_m = DepthOfObject(rim);
+  Look look{rim, DepthOfObject(rim), Look::kNothing};
   const Eigen::Vector2f direction = Direction(contour, at);
   std::array<float, kBeyond> depths;
   int seen = 0;
   bool outside = false, cut_off = false;
   for (int i = 1; i <= kWidestGap_px + 1 + seen && seen < kBeyond; ++i) {
     const float s = static_cast<float>(i);
-    const Pixel p{static_cast<int>(std::lround(static_cast<float>(rim.u) + s * direction.x())),
-                  static_cast<int>(std::lround(static_cast<float>(rim.v) + s * direction.y()))};
+    const Pixel p{rim.u + Round(s * direction.x()), rim.v + Round(s * direction.y())};
     if (!field_.Contains(p)) {
       cut_off = i <= kNearBorder_px + 1;
       break;
     }
     if (labels_.At(p) == label) {
-      if (outside || i > kTangent_px) return {Look::kItself};
+      if (outside || i > kTangent_px) {
+        look.kind = Look::kItself;
+        return look;
+      }
       continue;  // a step of the contour
     }
     outside = true;
     if (DepthAt(p) > 0) depths[static_cast<size_t>(seen++)] = DepthAtRimsRay(rim, p);
   }
-  if (seen == 0) return {cut_off ? Look::kBorder : Look::kNothing};
-  const float step_m = Median(depths.data(), depths.data() + seen) - rim_m;
-  if (cut_off && std::abs(step_m) <= ClearStep(rim_m)) return {Look::kBorder};
-  return {Look::kStep, step_m};
+  look.kind = cut_off ? Look::kBorder : Look::kNothing;
+  if (seen == 0) return look;
+  look.step_m = Median(depths.data(), depths.data() + seen) - look.rim_m;
+  if (!cut_off || std::abs(look.step_m) > ClearStep(look.rim_m)) look.kind = Look::kStep;
+  return look;
 }
 
 /// What most of the rays around one contour pixel say; steps by their median.
-Beyond Decide(const std::vector<Look>& looks, size_t at, float clear_m) {
+Beyond Decide(const std::vector<Look>& looks, size_t at) {
   std::array<float, 2 * kRays + 1> steps;
   int n_steps = 0, n_nothing = 0, n_border = 0;
   const size_t n = looks.size();
@@ -174,53 +183,40 @@ Beyond Decide(const std::vector<Look>& looks, size_t at, float clear_m) {
   if (n_border > std::max(n_steps, n_nothing)) return Beyond::kImageBorder;
   if (n_nothing > n_steps || n_steps == 0) return Beyond::kUnknown;
   const float step_m = Median(steps.data(), steps.data() + n_steps);
-  if (std::abs(step_m) <= clear_m) return Beyond::kLevel;
+  if (std::abs(step_m) <= ClearStep(looks[at].rim_m)) return Beyond::kLevel;
   return step_m > 0 ? Beyond::kFarther : Beyond::kNearer;
 }
 
-/// Contours of one object's pieces, and what is seen from them.
+/// What is seen from the contours of one object's pieces.
 struct Outline {
   struct Place {
     size_t contour = 0, at = 0;
   };
-  std::vector<std::vector<Pixel>> contours;
-  std::vector<std::vector<Look>> looks;  // one a pixel of a contour
-  std::vector<Place> places;             // beside which something other than the object lies
+  std::vector<std::vector<Look>> contours;
+  std::vector<Place> places;  // beside which something other than the object lies
 };
 
-void AddContour(const Lookout& lookout, std::vector<Pixel> contour, Outline& outline) {
-  std::vector<Look> looks(contour.size());
-  for (size_t i = 0; i < contour.size(); ++i) {
-    looks[i] = lookout.Outward(contour, i);
-    if (looks[i].kind != Look::kItself) outline.places.push_back({outline.contours.size(), i});
+void AddContour(const Lookout& lookout, const std::vector<Pixel>& contour, Outline& outline) {
+  const size_t stride = (contour.size() + kMostRays - 1) / kMostRays;
+  std::vector<Look>& looks = outline.contours.emplace_back();
+  for (size_t i = 0; i < contour.size(); i += stride) {
+    looks.push_back(lookout.Outward(contour, i));
+    if (looks.back().kind == Look::kItself) continue;
+    outline.places.push_back({outline.contours.size() - 1, looks.size() - 1});
   }
-  outline.contours.push_back(std::move(contour));
-  outline.looks.push_back(std::move(looks));
 }
 
-std::vector<RimPoint> Spread(const RgbdImage& image, const Lookout& lookout, const Outline& outline,
-                             size_t most) {
+std::vector<RimPoint> Spread(const RgbdImage& image, const Outline& outline, size_t most) {
   const size_t n = std::min(most, outline.places.size());
   std::vector<RimPoint> rim;
   rim.reserve(n);
   for (size_t k = 0; k < n; ++k) {
     const auto [contour, at] = outline.places[(2 * k + 1) * outline.places.size() / (2 * n)];
-    const Pixel p = outline.contours[contour][at];
-    const float depth_m = lookout.DepthOfObject(p);
-    rim.push_back({image.intrinsics.Unproject(p.u, p.v, depth_m).cast<float>(),
-                   Decide(outline.looks[contour], at, ClearStep(depth_m))});
+    const Look& look = outline.contours[contour][at];
+    rim.push_back({image.intrinsics.Unproject(look.rim.u, look.rim.v, look.rim_m).cast<float>(),
+                   Decide(outline.contours[contour], at)});
   }
   return rim;
-}
-
-/// The labels that count: of objects, and with depth.
-std::vector<uint16_t> WithDepth(const RgbdImage& image, std::span<const uint16_t> labels,
-                                int n_objects) {
-  std::vector<uint16_t> kept(labels.size());
-  for (size_t i = 0; i < labels.size(); ++i) {
-    kept[i] = image.depth_m[i] > 0 && labels[i] <= n_objects ? labels[i] : uint16_t{0};
-  }
-  return kept;
 }
 
 }  // namespace
@@ -236,8 +232,7 @@ std::vector<std::vector<RimPoint>> FindRims(const RgbdImage& image,
   std::vector<std::vector<RimPoint>> rims(static_cast<size_t>(std::max(n_objects, 0)));
   const size_t n_pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   if (labels.size() != n_pixels || image.depth_m.size() != n_pixels || most <= 0) return rims;
-  const std::vector<uint16_t> kept = WithDepth(image, labels, n_objects);
-  const LabelImage label_image{kept, image.width, image.height};
+  const LabelImage label_image{labels, image.depth_m, image.width, image.height, n_objects};
   const std::vector<Piece> pieces = FindPieces(label_image);
   std::vector<int> size(rims.size() + 1, 0);
   for (const Piece& piece : pieces) size[piece.label] += piece.n_pixels;
@@ -249,7 +244,7 @@ std::vector<std::vector<RimPoint>> FindRims(const RgbdImage& image,
     AddContour(lookout, TraceOuterContour(label_image, piece.first), outlines[piece.label - 1u]);
   }
   for (size_t i = 0; i < rims.size(); ++i) {
-    rims[i] = Spread(image, lookout, outlines[i], static_cast<size_t>(most));
+    rims[i] = Spread(image, outlines[i], static_cast<size_t>(most));
   }
   return rims;
 }

@@ -22,11 +22,15 @@ size_t Root(std::vector<Run>& runs, size_t i) {
 }
 
 void AppendRunsOfRow(const LabelImage& image, int row, std::vector<Run>& runs) {
-  const uint16_t* labels = image.labels.data() + static_cast<size_t>(row) * image.width;
+  const size_t row_begin = image.Index({0, row});
   for (int u = 0; u < image.width;) {
-    const uint16_t label = labels[u];
+    if (image.labels[row_begin + u] == 0) {
+      ++u;
+      continue;
+    }
+    const uint16_t label = image.At(row_begin + u);
     const int begin = u++;
-    while (u < image.width && labels[u] == label) ++u;
+    while (u < image.width && image.At(row_begin + u) == label) ++u;
     if (label != 0) runs.push_back({begin, u, row, label, runs.size()});
   }
 }

@@ -253,7 +253,8 @@ TEST(RimContour, FindsPiecesAsAFloodFillDoes) {
               height = 1 + static_cast<int>(engine() % 12);
     std::vector<uint16_t> labels(static_cast<size_t>(width * height));
     for (auto& label : labels) label = static_cast<uint16_t>(engine() % 3);
-    const LabelImage image{labels, width, height};
+    const std::vector<float> depth_m(labels.size(), 1.0f);
+    const LabelImage image{labels, depth_m, width, height, 2};
     std::vector<uint16_t> left = labels;  // what no piece has claimed yet
     for (const Piece& piece : FindPieces(image)) {
       EXPECT_EQ(left[static_cast<size_t>(piece.first.v * width + piece.first.u)], piece.label);
