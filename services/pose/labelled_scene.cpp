@@ -1,12 +1,17 @@
 // The objects of an organised scene that an image labels.
 #include "services/pose/labelled_scene.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
+#include <utility>
 
 #include "services/pose/table_plane.h"
 
@@ -19,36 +24,58 @@ constexpr std::array<uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 
 constexpr size_t kPngHeader = 26;
 constexpr uint8_t kGrey = 0;
 
+uint32_t BigEndian(std::span<const uint8_t> bytes, size_t at) {
+  return static_cast<uint32_t>(bytes[at]) << 24 | static_cast<uint32_t>(bytes[at + 1]) << 16 |
+         static_cast<uint32_t>(bytes[at + 2]) << 8 | bytes[at + 3];
+}
+
+/// Whether chunks (length, type, data, checksum) follow each other up to an IEND, undamaged. libpng
+/// would print what it finds.
+bool IsWhole(std::span<const uint8_t> png) {
+  constexpr uint32_t kEnd = 0x49454e44;  // "IEND"
+  for (size_t at = kPngSignature.size(); png.size() - at >= 12;) {
+    const uint32_t length = BigEndian(png, at);
+    if (length > png.size() - at - 12) return false;
+    const auto checked = png.subspan(at + 4, length + 4);
+    if (crc32(0, checked.data(), static_cast<uInt>(checked.size())) !=
+        BigEndian(png, at + 8 + length)) {
+      return false;
+    }
+    if (BigEndian(png, at + 4) == kEnd) return true;
+    at += length + 12;
+  }
+  return false;
+}
+
 /// Refuses what cannot be labels of an image of this size, before memory is taken for it.
-Status CheckHeader(const std::string& path, int width, int height) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{path + ": cannot be read"};
-  std::array<uint8_t, kPngHeader> header{};
-  file.read(reinterpret_cast<char*>(header.data()), header.size());
-  if (!file || !std::equal(kPngSignature.begin(), kPngSignature.end(), header.begin())) {
-    return Error{path + ": is not a PNG image; expected labels as a 16-bit grey PNG"};
+Status Check(const std::vector<uint8_t>& png, int width, int height) {
+  if (png.size() < kPngHeader ||
+      !std::equal(kPngSignature.begin(), kPngSignature.end(), png.begin())) {
+    return Error{"is not a PNG image; expected labels as a 16-bit grey PNG"};
   }
-  const auto number = [&](size_t at) {
-    return static_cast<uint32_t>(header[at]) << 24 | static_cast<uint32_t>(header[at + 1]) << 16 |
-           static_cast<uint32_t>(header[at + 2]) << 8 | header[at + 3];
-  };
-  const uint32_t w = number(16), h = number(20);
+  const uint32_t w = BigEndian(png, 16), h = BigEndian(png, 20);
   if (w != static_cast<uint32_t>(width) || h != static_cast<uint32_t>(height)) {
-    return Error{path + ": is " + std::to_string(w) + "x" + std::to_string(h) +
-                 ", expected the scene's " + std::to_string(width) + "x" + std::to_string(height)};
+    return Error{"is " + std::to_string(w) + "x" + std::to_string(h) + ", expected the scene's " +
+                 std::to_string(width) + "x" + std::to_string(height)};
   }
-  if (header[24] != 16 || header[25] != kGrey) {
-    return Error{path + ": has " + std::to_string(header[24]) + " bits" +
-                 (header[25] == kGrey ? "" : " of colour") + "; expected a 16-bit grey PNG"};
+  if (png[24] != 16 || png[25] != kGrey) {
+    return Error{"has " + std::to_string(png[24]) + " bits" +
+                 (png[25] == kGrey ? "" : " of colour") + "; expected a 16-bit grey PNG"};
   }
+  if (!IsWhole(png)) return Error{"is a damaged PNG image"};
   return {};
 }
 
 Result<std::vector<uint16_t>> ReadLabels(const std::string& path, int width, int height) {
-  if (Status sound = CheckHeader(path, width, height); !sound) return sound.error();
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<uint8_t> png{std::istreambuf_iterator<char>(file), {}};
+  if (!file) return Error{path + ": cannot be read"};
+  if (Status sound = Check(png, width, height); !sound) {
+    return Error{path + ": " + sound.error().message};
+  }
   cv::Mat image;
   try {
-    image = cv::imread(path, cv::IMREAD_UNCHANGED);
+    image = cv::imdecode(png, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {  // reported below
   }
   if (image.type() != CV_16UC1 || image.cols != width || image.rows != height) {

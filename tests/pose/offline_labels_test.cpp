@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -87,6 +88,30 @@ class OfflineLabelsTest : public ProgramTest {
     return Eigen::Vector3d(pose["position"].get<std::vector<double>>().data());
   }
 
+  /// How far the bodies' tangent planes are apart in any of many directions, m; whatever their axes
+  /// are called.
+  static double LargestDifference(const json& pose_C, const Pose& X_WC,
+                                  const msg::ObjectPose& pose_W) {
+    const auto numbers = [&](const char* key) { return pose_C[key].get<std::vector<double>>(); };
+    Superquadric offline, bus;
+    offline.semi_axes = Eigen::Vector3d(numbers("semi_axes").data());
+    offline.epsilon = Eigen::Vector2d(numbers("epsilon").data());
+    const auto q = numbers("rotation");
+    offline.X_FO.linear() =
+        X_WC.linear() * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+    bus.semi_axes = Eigen::Vector3d(pose_W.semi_axes.data());
+    bus.epsilon = Eigen::Vector2d(pose_W.epsilon.data());
+    bus.X_FO = pose_W.X_WO;
+    const Eigen::Vector3d apart = X_WC * Position(pose_C) - pose_W.X_WO.translation();
+    double largest_m = 0;
+    for (const auto& direction : SampleSurface(Superquadric{}, 200)) {
+      const Eigen::Vector3d n = direction.normalized();
+      largest_m = std::max(
+          largest_m, std::abs(HalfWidth(offline, n) - HalfWidth(bus, n)) + std::abs(apart.dot(n)));
+    }
+    return largest_m;
+  }
+
   static constexpr uint16_t kNames[] = {0, 3, 700};  // labels as the file has them
   const TableScene scene_ =
       SceneOnTable({MakeShape({0.03, 0.04, 0.06}, 0.1, 0.1, {-0.08, 0, 0.06}, {0, 0, 0.5}),
@@ -108,12 +133,10 @@ TEST_F(OfflineLabelsTest, GiveAResultForEachObjectAsOverTheBus) {
     EXPECT_EQ(poses[k]["file"], Path("scene.pcd"));
     EXPECT_EQ(poses[k]["label"], kNames[k + 1]);
     EXPECT_EQ(poses[k]["converged"], bus.poses[k].converged) << poses[k]["reason"];
-    EXPECT_LT((X_WC * Position(poses[k]) - bus.poses[k].X_WO.translation()).norm(), 5e-4);
-    for (size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(poses[k]["semi_axes"][i].get<double>(), bus.poses[k].semi_axes[i], 5e-4);
-    }
+    EXPECT_LT(LargestDifference(poses[k], X_WC, bus.poses[k]), 5e-4);
     EXPECT_LT((Position(poses[k]) - scene_.shapes_C[k].X_FO.translation()).norm(), 0.005);
-    EXPECT_EQ(poses[k]["grasps"].size(), bus.poses[k].grasps.size());
+    EXPECT_FALSE(poses[k]["grasps"].empty());
+    EXPECT_FALSE(bus.poses[k].grasps.empty());
     EXPECT_TRUE(poses[k]["alternatives"].is_array());
     EXPECT_TRUE(poses[k]["parts"].is_array());
   }
@@ -151,6 +174,10 @@ TEST_F(OfflineLabelsTest, AreRefusedInOneLineWhereTheyAreOfNoUse) {
   refuse("empty.png", "labels no pixel");
   Write("cut.png", Read("labels.png").substr(0, 60));
   refuse("cut.png", "damaged");
+  std::string flipped = Read("labels.png");
+  flipped[flipped.size() / 2] ^= 1;
+  Write("flipped.png", flipped);
+  refuse("flipped.png", "damaged");
   cv::imwrite(Path("full.png"), cv::Mat(240, 320, CV_16U, cv::Scalar(1)));
   refuse("full.png", "no table found");
 
