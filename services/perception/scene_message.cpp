@@ -13,8 +13,9 @@ constexpr size_t kMaxHull = 64;           // vertices of the table
 constexpr size_t kMaxProbabilities = 12;  // categories told of one object
 constexpr size_t kBytesOfPoint = 6;
 constexpr size_t kBytesOfRimPoint = 7;
-constexpr size_t kRimsPart = 3;   // the rim takes at most this part of what an object's points may
-constexpr size_t kMargin = 1500;  // source, table's pose, times and lengths
+constexpr size_t kSamplesFirst = 40;  // points of an object that its rim takes no room from;
+constexpr size_t kRimsPart = 2;       // of the rest it takes at most this part
+constexpr size_t kMargin = 1500;      // source, table's pose, times and lengths
 
 /// Every so many-th vertex of a hull that has too many.
 std::vector<Eigen::Vector2d> TableOutline(const Perception& perception) {
@@ -66,7 +67,8 @@ msg::SceneObject MakeObject(const PerceivedObject& perceived) {
 void FillPoints(const RgbdImage& image, const Perception& perception, size_t share,
                 msg::Scene& scene) {
   const auto& segmentation = perception.segmentation;
-  const size_t n_rim = std::min<size_t>(share / kRimsPart / kBytesOfRimPoint, kMaxRim);
+  const size_t first = std::min(share, kSamplesFirst * kBytesOfPoint);
+  const size_t n_rim = std::min<size_t>((share - first) / kRimsPart / kBytesOfRimPoint, kMaxRim);
   const size_t n_samples =
       std::min<size_t>((share - n_rim * kBytesOfRimPoint) / kBytesOfPoint, kMaxSamples);
   // Object k of the segmentation is the k-th that was perceived.

@@ -86,9 +86,9 @@ const msg::SceneObject& ObjectAt(const msg::Scene& scene, double x, double y) {
 }
 
 TEST(SceneMessage, TellsWhatLiesBeyondTheRims) {
-  BoxWorld world;  // the right box stands behind the left one, seen from the camera
-  world.boxes = {Table(), Standing(-0.05, 0.6, 0.1, 0.05, 0.08),
-                 Standing(0.02, 0.75, 0.12, 0.06, 0.15)};
+  BoxWorld world;  // the left box hides a part of the right one, 2.5 cm behind it
+  world.boxes = {Table(), Standing(-0.05, 0.6, 0.1, 0.05, 0.1),
+                 Standing(0.02, 0.68, 0.12, 0.06, 0.15)};
   world.noise_m = 0.0015;
   const RgbdImage image = world.Render();
   Perceiver perceiver({}, nullptr);
@@ -96,7 +96,7 @@ TEST(SceneMessage, TellsWhatLiesBeyondTheRims) {
   EXPECT_EQ(scene.intrinsics.fx, image.intrinsics.fx);
   EXPECT_EQ(scene.intrinsics.cy, image.intrinsics.cy);
   ASSERT_EQ(scene.objects.size(), 2u);
-  const msg::SceneObject &front = ObjectAt(scene, -0.05, 0.6), &back = ObjectAt(scene, 0.02, 0.75);
+  const msg::SceneObject &front = ObjectAt(scene, -0.05, 0.6), &back = ObjectAt(scene, 0.02, 0.68);
   int hidden = 0;
   for (const RimPoint& rim : back.rim_C) hidden += rim.beyond == Beyond::kNearer;
   EXPECT_GT(hidden, 3) << "behind the other";
@@ -154,7 +154,7 @@ TEST(SceneMessage, OfSixtyFourObjectsFitsOneDatagram) {
     EXPECT_EQ(scene.objects.size(), 64u);
     for (const auto& object : scene.objects) {
       EXPECT_GE(object.points_C.size(), 20u);
-      EXPECT_GE(object.rim_C.size(), 8u);
+      if (n_categories == 0) EXPECT_GE(object.rim_C.size(), 20u);
     }
   }
 }

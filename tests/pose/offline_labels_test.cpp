@@ -133,7 +133,8 @@ TEST_F(OfflineLabelsTest, GiveAResultForEachObjectAsOverTheBus) {
     EXPECT_EQ(poses[k]["file"], Path("scene.pcd"));
     EXPECT_EQ(poses[k]["label"], kNames[k + 1]);
     EXPECT_EQ(poses[k]["converged"], bus.poses[k].converged) << poses[k]["reason"];
-    EXPECT_LT(LargestDifference(poses[k], X_WC, bus.poses[k]), 5e-4);
+    // Points are rounded to 0.1 mm on the bus; what is hidden follows them at a distance.
+    EXPECT_LT(LargestDifference(poses[k], X_WC, bus.poses[k]), 1e-3);
     EXPECT_LT((Position(poses[k]) - scene_.shapes_C[k].X_FO.translation()).norm(), 0.005);
     EXPECT_FALSE(poses[k]["grasps"].empty());
     EXPECT_FALSE(bus.poses[k].grasps.empty());
