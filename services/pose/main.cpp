@@ -34,6 +34,9 @@ int main(int argc, char** argv) {
   app.add_option("--input", offline.inputs,
                  "Clouds to fit instead of serving (.pcd .ply .xyz, metres)")
       ->type_name("CLOUD");
+  app.add_option("--labels", offline.labels,
+                 "16-bit PNG that labels the objects of one organised input; a result for each")
+      ->type_name("LABELS.png");
   app.add_option("--plane", offline.plane, "The inputs' table, n.p + d = 0")
       ->type_name("nx,ny,nz,d");
   app.add_option("--list", offline.list, "A line {\"file\": .., \"plane\": [..]} for each cloud")
@@ -56,7 +59,8 @@ int main(int argc, char** argv) {
       config->fit.method = *parsed;
     }
     if (options.check_config) return {};
-    const bool outputs = !offline.json.empty() || !offline.picture.empty();
+    const bool outputs =
+        !offline.json.empty() || !offline.picture.empty() || !offline.labels.empty();
     if (offline.inputs.empty() && offline.list.empty() && !outputs) return Serve(options, *config);
     if (offline.json.empty()) return Error{"expected --json OUT.json with --input or --list"};
     return pose::RunOffline(offline, *config);

@@ -16,8 +16,9 @@ msg::Poses SceneEstimator::Estimate(const msg::Scene& scene) {
   std::map<int, Known> now;
   for (const msg::SceneObject& object : scene.objects) {
     poses.poses.push_back(EstimateOne(object, scene));
-    now[object.id] = {object.points_C, scene.X_WC, poses.poses.back()};
+    now[object.id] = {object.points_C, object.rim_C, scene.X_WC, poses.poses.back()};
   }
+  FitDatagram(poses);
   known_ = std::move(now);
   ++counts_.scenes;
   return poses;
@@ -27,12 +28,14 @@ msg::ObjectPose SceneEstimator::EstimateOne(const msg::SceneObject& object,
                                             const msg::Scene& scene) {
   const auto known = known_.find(object.id);
   if (known != known_.end() && known->second.points_C == object.points_C &&
-      known->second.X_WC.matrix() == scene.X_WC.matrix()) {
+      known->second.rim_C == object.rim_C && known->second.X_WC.matrix() == scene.X_WC.matrix()) {
     ++counts_.reused;
     return known->second.pose;
   }
   const Stopwatch stopwatch;
-  FitInput input{object.points_C, {}};
+  FitInput input;
+  input.points_F = object.points_C;
+  input.rim_F = object.rim_C;
   if (scene.has_table) input.table_F = TableInCamera(scene.X_WC);
   const pose::Estimate estimate = EstimateObject(input, config_);
   ++counts_.fitted;

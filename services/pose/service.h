@@ -18,7 +18,7 @@ namespace beckon::pose {
 struct PoseCounts {
   int64_t scenes = 0;         // answered by POSES
   int64_t fitted = 0;         // objects
-  int64_t reused = 0;         // objects whose points and camera had not changed
+  int64_t reused = 0;         // objects whose points, rim and camera had not changed
   int64_t not_converged = 0;  // of those fitted
 };
 
@@ -35,6 +35,7 @@ class SceneEstimator {
  private:
   struct Known {
     std::vector<Eigen::Vector3f> points_C;
+    std::vector<RimPoint> rim_C;
     Pose X_WC;
     msg::ObjectPose pose;
   };

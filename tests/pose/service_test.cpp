@@ -74,9 +74,15 @@ TEST(SceneEstimatorTest, ReusesWhatDidNotChangeAndRefitsWhatDid) {
   scene.objects[0].id = 8;
   estimator.Estimate(scene);
   EXPECT_EQ(estimator.counts().fitted, 3);
-  scene.X_WC.translation().z() += 0.01;
+  scene.objects[0].rim_C = {{scene.objects[0].points_C[0], Beyond::kFarther}};
   estimator.Estimate(scene);
   EXPECT_EQ(estimator.counts().fitted, 4);
+  scene.objects[0].rim_C[0].beyond = Beyond::kNearer;
+  estimator.Estimate(scene);
+  EXPECT_EQ(estimator.counts().fitted, 5);
+  scene.X_WC.translation().z() += 0.01;
+  estimator.Estimate(scene);
+  EXPECT_EQ(estimator.counts().fitted, 6);
 }
 
 TEST(SceneEstimatorTest, CountsWhatDidNotConverge) {
