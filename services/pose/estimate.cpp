@@ -20,7 +20,8 @@ FitResult FitObject(const FitInput& input, const FitConfig& config) {
 std::vector<GraspCandidate> GraspObject(const FitInput& input, const FitResult& fit,
                                         const Obstacles& obstacles, const GripperConfig& gripper) {
   const std::optional<Plane> table_F = TurnedToViewpoint(input);
-  return table_F ? ProposeGrasps(fit, *table_F, obstacles, gripper) : std::vector<GraspCandidate>{};
+  return table_F ? ProposeGrasps(fit, input.points_F, *table_F, obstacles, gripper)
+                 : std::vector<GraspCandidate>{};
 }
 
 Estimate EstimateObject(const FitInput& input, const PoseConfig& config) {

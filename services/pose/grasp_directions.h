@@ -8,8 +8,8 @@
 
 namespace beckon::pose {
 
-enum class ApproachKind { kAbove, kSide, kTilted };
-inline constexpr int kApproachKinds = 3;
+enum class ApproachKind { kAbove, kSide, kTilted, kRim };
+inline constexpr int kApproachKinds = 4;
 
 /// Where the gripper would go if nothing were in its way.
 struct GraspIdea {
@@ -33,8 +33,8 @@ Standing StandOn(const GraspedBody& body, const Plane& table_F);
 
 /// Straight down, closing across all directions of the half circle, at several places along long
 /// bodies; from the sides all around, closing horizontally, at several heights where the palm fits
-/// between table and top; and from halfway between. A grasp of another kind, such as one of a
-/// bowl's rim, would be a further source of ideas. Always in the same order.
+/// between table and top; and from halfway between.
+/// Always in the same order.
 std::vector<GraspIdea> FindDirections(const GraspedBody& body, const Standing& standing,
                                       const GripperConfig& gripper);
 

@@ -137,6 +137,23 @@ std::optional<RatedGrasp> GraspEvaluation::Rate(const GraspIdea& idea) const {
   return rated;
 }
 
+std::optional<RatedGrasp> GraspEvaluation::RatePinch(const RimPinch& pinch, double seen) const {
+  RatedGrasp rated{.kind = ApproachKind::kRim, .probability = seen};
+  GraspCandidate& grasp = rated.grasp;
+  grasp.X_FG = pinch.X_FG;
+  grasp.opening_m = pinch.width_m + 2 * gripper_.clearance_m;
+  if (LowestPoint(SweptVolume(gripper_, grasp.opening_m), grasp.X_FG, table_F_) <
+      gripper_.clearance_m - kRounding_m) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d half = 0.5 * pinch.width_m * grasp.X_FG.linear().col(0);
+  grasp.contacts_F = {grasp.X_FG.translation() + half, grasp.X_FG.translation() - half};
+  const double most_m = gripper_.finger_depth_m - gripper_.clearance_m;
+  grasp.score = Score(rated.probability * Quality(grasp, pinch.slip_rad,
+                                                  pinch.held_m / std::max(most_m, kLeastHold_m)));
+  return rated;
+}
+
 bool GraspEvaluation::Settle(RatedGrasp& rated) const {
   GraspCandidate& grasp = rated.grasp;
   const double enough_m = kFreeEnough * gripper_.clearance_m;
@@ -147,8 +164,10 @@ bool GraspEvaluation::Settle(RatedGrasp& rated) const {
     const double lacking = (enough_m - free_m) / (enough_m - gripper_.clearance_m);
     grasp.score -= rated.probability * kFreeWeight * lacking;
   }
-  const auto works = std::count_if(alternatives_.begin(), alternatives_.end(),
-                                   [&](const auto& other) { return WorksFor(other, grasp); });
+  const bool seen = rated.kind == ApproachKind::kRim;  // whatever the shape may be
+  const auto works =
+      std::count_if(alternatives_.begin(), alternatives_.end(),
+                    [&](const auto& other) { return seen || WorksFor(other, grasp); });
   const double share =
       (1.0 + static_cast<double>(works)) / (1.0 + static_cast<double>(alternatives_.size()));
   grasp.score = Score(share * grasp.score);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "services/pose/grasp_directions.h"
+#include "services/pose/grasp_rim.h"
 #include "services/pose/grasp_uncertainty.h"
 #include "services/pose/grasps.h"
 
@@ -29,6 +30,9 @@ class GraspEvaluation {
   /// The idea as a grasp, as deep as palm and table allow; none where the gripper cannot, obstacles
   /// left aside.
   std::optional<RatedGrasp> Rate(const GraspIdea& idea) const;
+
+  /// The pinch of a rim, of which `seen` was seen, as a grasp; none where the table is in the way.
+  std::optional<RatedGrasp> RatePinch(const RimPinch& pinch, double seen) const;
 
   /// Takes obstacles and alternatives into account: the score drops or stays. False where an
   /// obstacle is in the way.

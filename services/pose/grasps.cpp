@@ -88,8 +88,9 @@ class Selection {
 
 }  // namespace
 
-std::vector<GraspCandidate> ProposeGrasps(const FitResult& fit, const Plane& table_F,
-                                          const Obstacles& obstacles,
+std::vector<GraspCandidate> ProposeGrasps(const FitResult& fit,
+                                          std::span<const Eigen::Vector3f> points_F,
+                                          const Plane& table_F, const Obstacles& obstacles,
                                           const GripperConfig& gripper) {
   if (!fit.converged) return {};
   const GraspedBody body(fit.shape);
@@ -98,6 +99,10 @@ std::vector<GraspCandidate> ProposeGrasps(const FitResult& fit, const Plane& tab
   std::vector<RatedGrasp> rated;
   for (const GraspIdea& idea : FindDirections(body, standing, gripper)) {
     if (const auto grasp = evaluation.Rate(idea)) rated.push_back(*grasp);
+  }
+  const OpenRim rim = FindOpenRim(points_F, table_F, gripper);
+  for (const RimPinch& pinch : rim.pinches) {
+    if (const auto grasp = evaluation.RatePinch(pinch, rim.seen)) rated.push_back(*grasp);
   }
   return Selection(evaluation, std::move(rated)).Take();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "services/base/geometry.h"
@@ -37,7 +38,13 @@ struct GraspCandidate {
 ///       centroid / finger depth) + 0.2 (what is left of the opening / max_opening)
 ///       + 0.15 (how far the object reaches into the fingers / all it could)
 ///       + 0.15 (clearance from obstacles beyond what is asked / twice what is asked, at most 1).
-std::vector<GraspCandidate> ProposeGrasps(const FitResult& fit, const Plane& table_F,
-                                          const Obstacles& obstacles, const GripperConfig& gripper);
+///
+/// Where `points_F`, those of the object, show an open vessel, its wall is pinched from above too,
+/// at places of the rim that were seen. Of such a grasp the points tell all, not the fit: contacts
+/// and slip are those of the wall, P is the share of the rim that was seen, and A is 1.
+std::vector<GraspCandidate> ProposeGrasps(const FitResult& fit,
+                                          std::span<const Eigen::Vector3f> points_F,
+                                          const Plane& table_F, const Obstacles& obstacles,
+                                          const GripperConfig& gripper);
 
 }  // namespace beckon::pose
