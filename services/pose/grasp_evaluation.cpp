@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace beckon::pose {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kFreeEnough = 3;        // clearances from an obstacle that cou
 constexpr double kCautiousGap = 2;       // clearances at most, where the pose is uncertain
 constexpr double kDescends = 0.3;        // cosine: moving back lifts the gripper
 constexpr double kLeastSlip_rad = 1e-6;  // so that nothing is divided by 0
+constexpr double kKnownTurn_rad = 0.1;
 constexpr double kRounding_m = 1e-9;
 
 Pose PoseOf(const GraspIdea& idea, const Eigen::Vector3d& tips_F) {
@@ -97,6 +99,25 @@ std::optional<double> GraspEvaluation::Enclose(GraspCandidate& grasp, double spr
   return gap_m;
 }
 
+// Share of the object's turns at which the contacts hold: none, and one standard deviation either
+// way about each of the gripper's other axes that it matters for.
+double GraspEvaluation::HoldsTurned(const GraspIdea& idea, const Eigen::Vector3d& middle_F) const {
+  const Eigen::Vector3d across = idea.approach_F.cross(idea.closing_F);
+  int holds = 1, turns = 1;
+  for (const auto& [about, aside] :
+       {std::pair{idea.approach_F, across}, {across, idea.approach_F}}) {
+    const double turn_rad = spread_.Turn(about);
+    if (turn_rad < kKnownTurn_rad) continue;
+    for (const double way : {1.0, -1.0}) {
+      const Eigen::Vector3d closing =
+          std::cos(turn_rad) * idea.closing_F + way * std::sin(turn_rad) * aside;
+      holds += FindContacts(body_.shape(), middle_F, closing, gripper_.max_slip_rad).has_value();
+      ++turns;
+    }
+  }
+  return static_cast<double>(holds) / turns;
+}
+
 double GraspEvaluation::Quality(const GraspCandidate& grasp, double slip_rad, double held) const {
   const Eigen::Vector3d middle = 0.5 * (grasp.contacts_F[0] + grasp.contacts_F[1]);
   const double off_centre_m = (middle - body_.centre_F()).norm();
@@ -114,8 +135,9 @@ std::optional<RatedGrasp> GraspEvaluation::Rate(const GraspIdea& idea) const {
   const double middle_m = idea.approach_F.dot(idea.middle_F - body_.centre_F());
   const Eigen::Vector3d tips_F = idea.middle_F + (*tips_m - middle_m) * idea.approach_F;
   const double pads_m = std::min(kPads * gripper_.finger_depth_m, 0.5 * held_m);
-  const auto contacts = FindContacts(body_.shape(), tips_F - pads_m * idea.approach_F,
-                                     idea.closing_F, gripper_.max_slip_rad);
+  const Eigen::Vector3d inside_F = tips_F - pads_m * idea.approach_F;
+  const auto contacts =
+      FindContacts(body_.shape(), inside_F, idea.closing_F, gripper_.max_slip_rad);
   if (!contacts) return std::nullopt;
 
   RatedGrasp rated{.grasp = {.X_FG = PoseOf(idea, tips_F), .contacts_F = contacts->points_F},
@@ -129,7 +151,7 @@ std::optional<RatedGrasp> GraspEvaluation::Rate(const GraspIdea& idea) const {
     return std::nullopt;
   }
   rated.probability =
-      WithinProbability(*gap_m, *gap_m, spread_m) *
+      HoldsTurned(idea, inside_F) * WithinProbability(*gap_m, *gap_m, spread_m) *
       WithinProbability(held_m, gripper_.finger_depth_m - held_m, spread_.Along(idea.approach_F));
   const double most_m = std::min(2 * reach_m, gripper_.finger_depth_m - gripper_.clearance_m);
   grasp.score = Score(rated.probability *

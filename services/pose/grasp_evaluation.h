@@ -41,6 +41,7 @@ class GraspEvaluation {
  private:
   std::optional<double> Deepest(const GraspIdea& idea, double reach_m) const;
   std::optional<double> Enclose(GraspCandidate& grasp, double spread_m) const;
+  double HoldsTurned(const GraspIdea& idea, const Eigen::Vector3d& middle_F) const;
   double Quality(const GraspCandidate& grasp, double slip_rad, double held) const;
   bool WorksFor(const GraspedBody& other, const GraspCandidate& grasp) const;
 

@@ -8,7 +8,6 @@
 namespace beckon::pose {
 namespace {
 
-constexpr double kWidestTurn_rad = 0.8;     // about half of where a box repeats itself
 constexpr double kSmallestTurn_rad = 1e-3;  // widens nothing that could be grasped
 
 double StandardDeviation(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& direction) {

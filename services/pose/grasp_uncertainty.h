@@ -20,9 +20,12 @@ class PoseSpread {
   /// one standard deviation of each.
   double Closing(const Eigen::Matrix3d& R_FG) const;
 
- private:
-  double Turn(const Eigen::Vector3d& axis_F) const;  // standard deviation, rad
+  /// Standard deviation of the object's turn about an axis, rad, at most kWidestTurn_rad.
+  double Turn(const Eigen::Vector3d& axis_F) const;
 
+  static constexpr double kWidestTurn_rad = 0.8;  // about half of where a box repeats itself
+
+ private:
   const GraspedBody& body_;
   Eigen::Matrix3d position_, rotation_;
 };

@@ -32,8 +32,9 @@ struct GraspCandidate {
 ///
 /// The score is P A Q: P, the probability that the object is where the fingers reach it and between
 /// them, by the fit's covariance (a Gaussian's tails beyond the gaps on either side, and before and
-/// behind the fingers); A, the share of the shapes that the grasp works for, of the fitted one and
-/// its alternatives; and
+/// behind the fingers; times the share of its turns, none and one standard deviation either way, at
+/// which the contacts hold); A, the share of the shapes that the grasp works for, of the fitted one
+/// and its alternatives; and
 ///   Q = 0.25 (1 - slip / max_slip) + 0.25 / (1 + distance of the contacts' middle from the
 ///       centroid / finger depth) + 0.2 (what is left of the opening / max_opening)
 ///       + 0.15 (how far the object reaches into the fingers / all it could)
