@@ -1,6 +1,7 @@
-// One object: its superquadric and how to grasp it.
+// An object, or all of a scene: their superquadrics and how to grasp them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "services/pose/fit.h"
@@ -18,8 +19,18 @@ struct Estimate {
   std::vector<GraspCandidate> grasps;  // none without a table or a converged fit
 };
 
-/// Fits and proposes grasps, all in the input's frame. The table's normal may point either way; it
-/// is turned to the viewpoint.
-Estimate EstimateObject(FitInput input, const PoseConfig& config);
+/// Fits an object, in the input's frame. The table's normal may point either way; it is turned to
+/// the viewpoint.
+FitResult FitObject(const FitInput& input, const FitConfig& config);
+
+/// Grasps of the object that `fit` is of, among obstacles.
+std::vector<GraspCandidate> GraspObject(const FitInput& input, const FitResult& fit,
+                                        const Obstacles& obstacles, const GripperConfig& gripper);
+
+/// Fits an object that stands alone, and proposes grasps.
+Estimate EstimateObject(const FitInput& input, const PoseConfig& config);
+
+/// The same of objects that stand together: the grasps of each stay clear of all others.
+std::vector<Estimate> EstimateScene(std::span<const FitInput> objects, const PoseConfig& config);
 
 }  // namespace beckon::pose

@@ -46,8 +46,12 @@ void ReadGripper(ConfigTable table, GripperConfig& c) {
   table.Get("max_opening_m", c.max_opening_m, 0.001, 1);
   table.Get("finger_depth_m", c.finger_depth_m, 0.001, 1);
   table.Get("finger_half_width_m", c.finger_half_width_m, 0, 1);
+  table.Get("finger_thickness_m", c.finger_thickness_m, 0, 1);
+  table.Get("palm_width_m", c.palm_width_m, 0, 1);
+  table.Get("palm_thickness_m", c.palm_thickness_m, 0, 1);
+  table.Get("palm_depth_m", c.palm_depth_m, 0, 1);
+  table.Get("approach_m", c.approach_m, 0, 1);
   table.Get("clearance_m", c.clearance_m, 0, 1);
-  table.Get("min_side_height_m", c.min_side_height_m, 0, 10);
   table.Get("max_slip_rad", c.max_slip_rad, 0, 1.6);
 }
 

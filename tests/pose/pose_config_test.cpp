@@ -25,11 +25,16 @@ TEST(PoseConfigFile, IsDefaultsWhenEmpty) {
 TEST(PoseConfigFile, OverridesDefaults) {
   const auto config = Read(
       "method = 'multiscale'\n[multiscale]\nvoxels_m = [0.02]\n[gripper]\nmax_opening_m = 0.08\n"
+      "finger_thickness_m = 0.012\npalm_width_m = 0.15\npalm_thickness_m = 0.07\n"
+      "palm_depth_m = 0.1\napproach_m = 0.05\n"
       "[adaptive]\nfine_points = 200\n[limits]\nmax_extent_m = 1.0\n");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->fit.method, Method::kMultiscale);
   EXPECT_EQ(config->fit.multiscale.voxels_m, std::vector<double>{0.02});
   EXPECT_EQ(config->gripper.max_opening_m, 0.08);
+  EXPECT_EQ(config->gripper.finger_thickness_m, 0.012);
+  EXPECT_EQ(config->gripper.palm_width_m, 0.15);
+  EXPECT_EQ(config->gripper.approach_m, 0.05);
   EXPECT_EQ(config->fit.adaptive.fine_points, 200);
 }
 
