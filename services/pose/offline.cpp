@@ -64,15 +64,16 @@ Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
     if (!cloud) return Error{request.where + cloud.error().message};
     poses.push_back(EstimateRepeatedly(request, *cloud, options.repeat, config));
     if (options.picture.empty()) continue;
-    const FitResult& fit = poses.back().estimate.fit;
     portraits.push_back({std::filesystem::path(request.file).filename().string(),
-                         std::move(cloud->points), fit.shape, fit.converged});
+                         std::move(cloud->points), request.table_F, request.viewpoint_F,
+                         poses.back().estimate});
   }
   if (Status written = WriteTextFile(options.json, PosesToJson(poses, Name(config.fit.method)));
       !written) {
     return written;
   }
-  return options.picture.empty() ? Status{} : DrawPortraits(options.picture, portraits);
+  return options.picture.empty() ? Status{}
+                                 : DrawPortraits(options.picture, portraits, config.gripper);
 }
 
 }  // namespace beckon::pose
