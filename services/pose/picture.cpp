@@ -13,17 +13,10 @@
 namespace beckon::pose {
 namespace {
 
-constexpr int kHeader_px = 46, kFooter_px = 20, kTilesPerRow = 4;
+constexpr int kHeader_px = 50, kFooter_px = 20, kTilesPerRow = 4;
 constexpr double kMargin_px = 16;
 const Colour kPaper(255, 255, 255), kInk(40, 36, 32), kFaint(120, 112, 105), kRule(225, 220, 215);
 const Colour kWire(60, 52, 40), kDoubtful(0, 94, 213), kAlternative(115, 158, 0);
-
-Colour PartColour(size_t part) {
-  // Okabe & Ito's palette, which the colour-blind tell apart.
-  static const std::array<Colour, 4> kParts = {Colour(178, 114, 0), Colour(0, 94, 213),
-                                               Colour(115, 158, 0), Colour(167, 121, 204)};
-  return kParts[part % kParts.size()];
-}
 
 std::span<const Superquadric> Shapes(const FitResult& fit) {
   if (!fit.parts.empty()) return fit.parts;
@@ -81,10 +74,10 @@ class Panel {
     for (size_t i = 0; i < Shapes(fit_).size(); ++i) {
       const Colour colour = !fit_.converged      ? kDoubtful
                             : fit_.parts.empty() ? kWire
-                                                 : PartColour(i);
+                                                 : DistinctColour(i);
       const bool hidden = sight == Sight::kHidden;
       DrawWireframe(Shapes(fit_)[i], view_, sight,
-                    {hidden ? Lighter(colour, 0.65) : colour, hidden ? 0.7 : 1.1}, &canvas_);
+                    {hidden ? Lighter(colour, 0.65) : colour, hidden ? 0.6 : 1.0}, &canvas_);
     }
   }
 
@@ -110,7 +103,7 @@ void DrawHeader(const Portrait& portrait, Canvas* tile) {
   const double verdict_width = Canvas::TextWidth(verdict, 12);
   tile->Text(Canvas::Fitted(portrait.title, 14, width - verdict_width - 16), {12, 22}, 14, kInk);
   tile->Text(verdict, {12 + width - verdict_width, 22}, 12, kDoubtful);
-  tile->Text(Canvas::Fitted(Describe(fit), 10.5, width), {12, 40}, 10.5, kFaint);
+  tile->Text(Canvas::Fitted(Describe(fit), 10.5, width), {12, 43}, 10.5, kFaint);
 }
 
 cv::Mat DrawTile(const Portrait& portrait, const GripperConfig& gripper) {

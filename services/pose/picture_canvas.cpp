@@ -2,6 +2,7 @@
 #include "services/pose/picture_canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -33,6 +34,13 @@ Colour Lighter(const Colour& colour, double amount) {
   return colour * (1 - amount) + Colour::all(255) * amount;
 }
 
+Colour DistinctColour(size_t number) {
+  static const std::array<Colour, 6> kColours = {Colour(178, 114, 0),  Colour(0, 159, 230),
+                                                 Colour(115, 158, 0),  Colour(167, 121, 204),
+                                                 Colour(233, 180, 86), Colour(0, 94, 213)};
+  return kColours[number % kColours.size()];
+}
+
 Canvas::Canvas(int width_px, int height_px, const Colour& paper)
     : pixels_(height_px * kFine, width_px * kFine, CV_8UC3, paper) {}
 
@@ -47,6 +55,10 @@ Canvas Canvas::Part(const cv::Rect& area_px) const {
 }
 
 Canvas Canvas::Copy() const { return Canvas(pixels_.clone()); }
+
+Canvas Canvas::White() const {
+  return Canvas(cv::Mat(pixels_.size(), pixels_.type(), Colour::all(255)));
+}
 
 void Canvas::Blend(const Canvas& drawn, double opacity) {
   cv::addWeighted(drawn.pixels_, opacity, pixels_, 1 - opacity, 0, pixels_);

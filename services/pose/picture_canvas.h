@@ -16,6 +16,9 @@ using PicturePolygon = std::vector<cv::Point2d>;  // px
 /// `colour` mixed with white: 0 is the colour itself, 1 white.
 Colour Lighter(const Colour& colour, double amount);
 
+/// Colours that the colour-blind tell apart, for things that are counted (Okabe & Ito's palette).
+Colour DistinctColour(size_t number);
+
 /// Pixels at kFine times the finished resolution. Copies share them, as cv::Mat does. What lies
 /// outside is cut off.
 class Canvas {
@@ -32,6 +35,8 @@ class Canvas {
   /// A part of this canvas with coordinates of its own; it draws on the same pixels.
   Canvas Part(const cv::Rect& area_px) const;
   Canvas Copy() const;
+  /// White of the same size.
+  Canvas White() const;
   /// Lets what `drawn` has shine through: 0 leaves this canvas as it is, 1 takes all of `drawn`.
   void Blend(const Canvas& drawn, double opacity);
 

@@ -45,21 +45,63 @@ bool FacesAway(const Superquadric& shape, const Eigen::Vector3d& eye_F,
   return NormalAt(shape, p_O).dot(eye_O - p_O) < 0;
 }
 
-std::vector<std::vector<Eigen::Vector3d>> Wires(const Superquadric& shape) {
-  constexpr int kSegments = 144, kCircles = 5, kMeridians = 12;
-  std::vector<std::vector<Eigen::Vector3d>> wires;
-  for (int i = 1; i <= kCircles; ++i) {
-    auto& wire = wires.emplace_back();
-    const double latitude = kPi * (static_cast<double>(i) / (kCircles + 1) - 0.5);
-    for (int k = 0; k <= kSegments; ++k)
-      wire.push_back(SurfacePoint(shape, latitude, 2 * kPi * k / kSegments));
+using Wire = std::vector<Eigen::Vector3d>;
+
+// The unit superellipse |x|^(2/e) + |y|^(2/e) = 1 on the ray at an angle.
+Eigen::Vector2d Superellipse(double angle, double epsilon) {
+  const double c = std::abs(std::cos(angle)), s = std::abs(std::sin(angle));
+  const double larger = std::max(c, s), power = 2 / epsilon;
+  const double gauge =
+      larger * std::pow(std::pow(c / larger, power) + std::pow(s / larger, power), 1 / power);
+  return {std::cos(angle) / gauge, std::sin(angle) / gauge};
+}
+
+// Angles 0 .. pi/2 that cut a quarter of the superellipse into pieces of about equal length: a
+// square's corner is then one of them.
+std::vector<double> EqualPieces(int pieces, double epsilon) {
+  constexpr int kSteps = 720;
+  std::vector<double> length{0};
+  for (int i = 1; i <= kSteps; ++i) {
+    const double step = kPi / 2 / kSteps;
+    length.push_back(
+        length.back() +
+        (Superellipse(i * step, epsilon) - Superellipse((i - 1) * step, epsilon)).norm());
   }
-  for (int i = 0; i < kMeridians; ++i) {
-    auto& wire = wires.emplace_back();
-    for (int k = 0; k <= kSegments / 2; ++k) {
-      const double latitude = kPi * (2.0 * k / kSegments - 0.5);
-      wire.push_back(SurfacePoint(shape, latitude, 2 * kPi * i / kMeridians));
-    }
+  std::vector<double> angles;
+  for (int k = 0; k <= pieces; ++k) {
+    const auto at = std::lower_bound(length.begin(), length.end(), length.back() * k / pieces);
+    angles.push_back(kPi / 2 * static_cast<double>(at - length.begin()) / kSteps);
+  }
+  return angles;
+}
+
+// The surface where the profile's angle is `along` (0 at the equator, pi/2 at the pole) and the
+// cross-section's is `around`: lines of equal `along` are level.
+Eigen::Vector3d SurfaceAt(const Superquadric& shape, double along, double around) {
+  const Eigen::Vector2d profile = Superellipse(along, shape.epsilon[0]);
+  const double radius = profile.x() * Superellipse(around, shape.epsilon[1]).norm();
+  return SurfacePoint(shape, std::atan2(profile.y(), radius), around);
+}
+
+// Seven level rings and sixteen meridians, evenly apart on the unit shape; every second meridian
+// stops at the last ring, lest they crowd the poles.
+std::vector<Wire> Wires(const Superquadric& shape) {
+  constexpr int kPieces = 4, kSegments = 160;
+  const std::vector<double> rings = EqualPieces(kPieces, shape.epsilon[0]);
+  const std::vector<double> meridians = EqualPieces(kPieces, shape.epsilon[1]);
+  std::vector<Wire> wires;
+  for (int i = 1 - kPieces; i < kPieces; ++i) {
+    Wire& wire = wires.emplace_back();
+    const double along = std::copysign(rings[static_cast<size_t>(std::abs(i))], i);
+    for (int k = 0; k <= kSegments; ++k)
+      wire.push_back(SurfaceAt(shape, along, 2 * kPi * k / kSegments));
+  }
+  for (int i = 0; i < 4 * kPieces; ++i) {
+    Wire& wire = wires.emplace_back();
+    const double around = kPi / 2 * (i / kPieces) + meridians[static_cast<size_t>(i % kPieces)];
+    const double end = i % 2 == 0 ? kPi / 2 : rings[kPieces - 1];
+    for (int k = 0; k <= kSegments / 2; ++k)
+      wire.push_back(SurfaceAt(shape, end * (4.0 * k / kSegments - 1), around));
   }
   return wires;
 }
