@@ -14,7 +14,7 @@ namespace beckon::pose {
 namespace {
 
 constexpr int kHeader_px = 50, kFooter_px = 20, kTilesPerRow = 4;
-constexpr double kMargin_px = 16;
+constexpr double kMargin_px = 20;
 const Colour kPaper(255, 255, 255), kInk(40, 36, 32), kFaint(120, 112, 105), kRule(225, 220, 215);
 const Colour kWire(60, 52, 40), kDoubtful(0, 94, 213), kAlternative(115, 158, 0);
 
@@ -150,6 +150,7 @@ cv::Mat DrawLegend(int width_px, size_t shown, size_t all) {
     text(name, 18);
   };
   key(kWire, 1.2, false, "fit");
+  key(Lighter(kWire, 0.65), 0.8, false, "its hidden side");
   key(kDoubtful, 1.2, false, "not converged");
   key(kAlternative, 1.2, true, "alternative");
   std::snprintf(words, sizeof words, "grid %.0f mm", 1000 * kGrid_m);

@@ -9,7 +9,6 @@
 
 #include "services/pose/picture_grasp.h"
 #include "services/pose/picture_shape.h"
-#include "services/pose/surface.h"
 
 namespace beckon::pose {
 namespace {
@@ -65,48 +64,68 @@ class ScenePicture {
       const Estimate& estimate = objects_[i].estimate;
       if (!estimate.grasps.empty())
         DrawGrasp(estimate.grasps.front(), gripper_, estimate.fit.shape, view_, &canvas_);
-      if (estimate.fit.converged) DrawAxes(estimate.fit.shape, view_, 11, &canvas_);
+      if (estimate.fit.converged) DrawAxes(estimate.fit.shape, view_, 12, &canvas_);
     }
     for (size_t i = 0; i < objects_.size(); ++i) DrawLabel(i);
     return canvas_.Finished();
   }
 
  private:
+  double Distance(size_t i) const {
+    return objects_[i].estimate.fit.shape.X_FO.translation().norm();
+  }
+
   std::vector<size_t> FarthestFirst() const {
     std::vector<size_t> order(objects_.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto depth = [&](size_t i) {
-      return objects_[i].estimate.fit.shape.X_FO.translation().norm();
-    };
     std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return depth(a) > depth(b); });
+                     [&](size_t a, size_t b) { return Distance(a) > Distance(b); });
     return order;
   }
 
   void DrawWires(size_t i, Sight sight, Canvas* canvas) const {
     const FitResult& fit = objects_[i].estimate.fit;
     const double width = sight == Sight::kVisible ? 1.5 : 1.0;
+    const std::vector<Superquadric> in_front = InFrontOf(i);
     for (const auto& shape : Shapes(fit)) {
       if (fit.converged && sight == Sight::kVisible)  // a dark rim, seen on any ground
-        DrawWireframe(shape, view_, sight, {kInk, width + 1.2, false}, canvas);
-      DrawWireframe(shape, view_, sight, {DistinctColour(i), width, !fit.converged}, canvas);
+        DrawWireframe(shape, view_, sight, {kInk, width + 1.2, false}, canvas, in_front);
+      DrawWireframe(shape, view_, sight, {DistinctColour(i), width, !fit.converged}, canvas,
+                    in_front);
     }
   }
 
-  /// Around the projected shape; empty where nothing of it is in front of the camera.
-  cv::Rect2d BoxOf(const SceneObjectFit& object) const {
-    double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
-    for (const auto& shape : Shapes(object.estimate.fit)) {
-      for (const auto& p : SampleSurface(shape, 200)) {
-        const auto px = view_.At(p);
-        if (!px) continue;
-        left = std::min(left, px->x);
-        right = std::max(right, px->x);
-        top = std::min(top, px->y);
-        bottom = std::max(bottom, px->y);
-      }
+  /// What may hide an object: the shapes of nearer ones that it meets in the picture.
+  std::vector<Superquadric> InFrontOf(size_t i) const {
+    std::vector<Superquadric> in_front;
+    for (size_t k = 0; k < objects_.size(); ++k) {
+      const FitResult& fit = objects_[k].estimate.fit;
+      if (k == i || !fit.converged || Distance(k) >= Distance(i)) continue;
+      if ((boxes_[k] & boxes_[i]).empty()) continue;
+      in_front.insert(in_front.end(), Shapes(fit).begin(), Shapes(fit).end());
     }
-    return right < left ? cv::Rect2d() : cv::Rect2d(left, top, right - left, bottom - top);
+    return in_front;
+  }
+
+  /// Around all that is drawn of an object, letters too; empty where nothing of it is in front of
+  /// the camera.
+  cv::Rect2d BoxOf(const SceneObjectFit& object) const {
+    constexpr double kLetter_px = 20;
+    std::vector<Eigen::Vector3d> points;
+    const auto add = [&](const std::vector<Eigen::Vector3d>& more) {
+      points.insert(points.end(), more.begin(), more.end());
+    };
+    for (const auto& shape : Shapes(object.estimate.fit)) add(Extremes(shape));
+    if (!object.estimate.grasps.empty()) add(Extremes(object.estimate.grasps.front(), gripper_));
+    Eigen::Array2d lo(1e9, 1e9), hi(-1e9, -1e9);
+    for (const auto& p : points) {
+      const auto px = view_.At(p);
+      if (!px) continue;
+      lo = lo.min(Eigen::Array2d(px->x, px->y) - kLetter_px);
+      hi = hi.max(Eigen::Array2d(px->x, px->y) + kLetter_px);
+    }
+    if ((hi < lo).any()) return {};
+    return {lo.x(), lo.y(), hi.x() - lo.x(), hi.y() - lo.y()};
   }
 
   void DrawLabel(size_t i) {
@@ -135,7 +154,7 @@ class ScenePicture {
 
   /// Above, below or beside the object: where it covers least of other labels and of objects.
   cv::Rect2d PlaceFor(const cv::Size2d& size, size_t i) const {
-    constexpr double kGap_px = 6;
+    constexpr double kGap_px = 0;
     const cv::Rect2d& box = boxes_[i];
     const double middle_x = box.x + (box.width - size.width) / 2;
     const double middle_y = box.y + (box.height - size.height) / 2;

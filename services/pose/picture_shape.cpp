@@ -128,13 +128,18 @@ bool Hides(const Superquadric& shape, const Eigen::Vector3d& eye_F, const Eigen:
 }
 
 void DrawWireframe(const Superquadric& shape, const PictureView& view, Sight sight,
-                   const WireStyle& style, Canvas* canvas) {
+                   const WireStyle& style, Canvas* canvas, std::span<const Superquadric> in_front) {
   const Eigen::Vector3d eye = view.eye_F();
+  const auto hidden = [&](const Eigen::Vector3d& p) {
+    return FacesAway(shape, eye, p) ||
+           std::any_of(in_front.begin(), in_front.end(),
+                       [&](const Superquadric& other) { return Hides(other, eye, p); });
+  };
   for (const auto& wire : Wires(shape)) {
     Stroke stroke(style, canvas);
     for (size_t i = 1; i < wire.size(); ++i) {
       const Eigen::Vector3d middle = 0.5 * (wire[i - 1] + wire[i]);
-      const Sight seen = FacesAway(shape, eye, middle) ? Sight::kHidden : Sight::kVisible;
+      const Sight seen = hidden(middle) ? Sight::kHidden : Sight::kVisible;
       if (seen == sight) stroke.Add(view.At(wire[i - 1]), view.At(wire[i]));
     }
   }
@@ -176,6 +181,7 @@ void DrawPoints(const std::vector<Eigen::Vector3f>& points_F, std::span<const Su
                 const PictureView& view, Sight sight, Canvas* canvas) {
   const Eigen::Vector3d eye = view.eye_F();
   const size_t step = points_F.size() / kMostPoints + 1;
+  const double radius_px = points_F.size() < 200 ? 2.5 : 1.1;
   for (size_t i = 0; i < points_F.size(); i += step) {
     if (!points_F[i].allFinite()) continue;
     const Eigen::Vector3d p = points_F[i].cast<double>();
@@ -190,7 +196,7 @@ void DrawPoints(const std::vector<Eigen::Vector3f>& points_F, std::span<const Su
     const bool away = owner && FacesAway(*owner, eye, p);
     const auto px = view.At(p);
     if (!px || away != (sight == Sight::kHidden)) continue;
-    canvas->Dot(*px, 1.1, Lighter(DistanceColour(nearest_m), away ? kHiddenLightness : 0.25));
+    canvas->Dot(*px, radius_px, Lighter(DistanceColour(nearest_m), away ? kHiddenLightness : 0.25));
   }
 }
 

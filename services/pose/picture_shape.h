@@ -19,9 +19,11 @@ struct WireStyle {
   bool dashed = false;
 };
 
-/// Circles of latitude and meridians, where they are visible or where the shape hides them.
+/// Level rings and meridians, where they are visible or where the shape itself, or one of those
+/// `in_front`, hides them.
 void DrawWireframe(const Superquadric& shape, const PictureView& view, Sight sight,
-                   const WireStyle& style, Canvas* canvas);
+                   const WireStyle& style, Canvas* canvas,
+                   std::span<const Superquadric> in_front = {});
 
 /// The frame O: x red, y green, z blue with their letters, from the centre to beyond the surface;
 /// thin inside the shape and where it hides them.
