@@ -42,7 +42,8 @@ class Panel {
     const auto add = [&](const std::vector<Eigen::Vector3d>& points) {
       shown.insert(shown.end(), points.begin(), points.end());
     };
-    for (const auto& shape : Shapes(fit_)) add(Extremes(shape));
+    add(Extremes(fit_.shape));
+    for (const auto& shape : fit_.parts) add(Extremes(shape));
     for (const auto& shape : fit_.alternatives) add(Extremes(shape));
     if (const auto* grasp = BestGrasp()) add(Extremes(*grasp, gripper));
     ZoomTo(shown,
@@ -102,7 +103,8 @@ void DrawHeader(const Portrait& portrait, Canvas* tile) {
   const std::string verdict = Verdict(fit);
   const double verdict_width = Canvas::TextWidth(verdict, 12);
   tile->Text(Canvas::Fitted(portrait.title, 14, width - verdict_width - 16), {12, 22}, 14, kInk);
-  tile->Text(verdict, {12 + width - verdict_width, 22}, 12, kDoubtful);
+  tile->Text(verdict, {12 + width - verdict_width, 22}, 12,
+             fit.converged && !fit.ambiguous ? kFaint : kDoubtful);
   tile->Text(Canvas::Fitted(Describe(fit), 10.5, width), {12, 43}, 10.5, kFaint);
 }
 
@@ -128,29 +130,29 @@ cv::Mat DrawTile(const Portrait& portrait, const GripperConfig& gripper) {
 }
 
 cv::Mat DrawLegend(int width_px, size_t shown, size_t all) {
-  constexpr double kText = 10, kBaseline = 22;
+  constexpr double kText = 9, kBaseline = 22;
   Canvas legend(width_px, kLegendHeight_px, kPaper);
   double x = 12;
   const auto text = [&](const std::string& words, double gap) {
     legend.Text(words, {x, kBaseline}, kText, kInk);
     x += Canvas::TextWidth(words, kText) + gap;
   };
-  text("distance to surface 0", 6);
+  text("residual 0", 6);
   constexpr int kSteps = 40;
   for (int i = 0; i < kSteps; ++i, x += 2)
     legend.Line({x, 13}, {x, 23}, DistanceColour(kFarDistance_m * i / (kSteps - 1)), 2);
   x += 6;
   char words[64];
   std::snprintf(words, sizeof words, "%.0f mm", 1000 * kFarDistance_m);
-  text(words, 24);
+  text(words, 16);
   const auto key = [&](const Colour& colour, double width, bool dashed, const char* name) {
     for (int i = 0; i < 3; ++i, x += 8)
       legend.Line({x, 18}, {x + (dashed ? 5 : 8), 18}, colour, width);
     x += 6;
-    text(name, 18);
+    text(name, 14);
   };
   key(kWire, 1.2, false, "fit");
-  key(Lighter(kWire, 0.65), 0.8, false, "its hidden side");
+  key(Lighter(kWire, 0.65), 0.8, false, "hidden");
   key(kDoubtful, 1.2, false, "not converged");
   key(kAlternative, 1.2, true, "alternative");
   std::snprintf(words, sizeof words, "grid %.0f mm", 1000 * kGrid_m);

@@ -78,6 +78,12 @@ TEST_F(PictureTest, HasATileACloudInAGrid) {
   EXPECT_EQ(Draw(six).size(), cv::Size(2 * kTileWidth_px, 3 * kTileHeight_px + kLegendHeight_px));
 }
 
+TEST_F(PictureTest, HasRoomForItsLegend) {
+  const cv::Mat picture = Draw({Box()});
+  const cv::Mat edge = picture(cv::Rect(kTileWidth_px - 10, kTileHeight_px, 10, kLegendHeight_px));
+  EXPECT_EQ(Differences(edge, cv::Mat(edge.size(), CV_8UC3, cv::Scalar::all(255))), 0);
+}
+
 TEST_F(PictureTest, LeavesOutWhatIsTooMany) {
   Portrait small = Box();
   small.points_F.resize(20);
