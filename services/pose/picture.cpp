@@ -138,7 +138,7 @@ cv::Mat DrawLegend(int width_px, size_t shown, size_t all) {
     x += Canvas::TextWidth(words, kText) + gap;
   };
   text("residual 0", 6);
-  constexpr int kSteps = 40;
+  constexpr int kSteps = 30;
   for (int i = 0; i < kSteps; ++i, x += 2)
     legend.Line({x, 13}, {x, 23}, DistanceColour(kFarDistance_m * i / (kSteps - 1)), 2);
   x += 6;
@@ -149,14 +149,14 @@ cv::Mat DrawLegend(int width_px, size_t shown, size_t all) {
     for (int i = 0; i < 3; ++i, x += 8)
       legend.Line({x, 18}, {x + (dashed ? 5 : 8), 18}, colour, width);
     x += 6;
-    text(name, 14);
+    text(name, 11);
   };
   key(kWire, 1.2, false, "fit");
   key(Lighter(kWire, 0.65), 0.8, false, "hidden");
   key(kDoubtful, 1.2, false, "not converged");
   key(kAlternative, 1.2, true, "alternative");
   std::snprintf(words, sizeof words, "grid %.0f mm", 1000 * kGrid_m);
-  text(words, 18);
+  text(words, 11);
   if (shown < all) text("first " + std::to_string(shown) + " of " + std::to_string(all), 0);
   return legend.Finished();
 }
