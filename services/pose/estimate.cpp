@@ -31,16 +31,22 @@ Estimate EstimateObject(const FitInput& input, const PoseConfig& config) {
   return estimate;
 }
 
-std::vector<Estimate> EstimateScene(std::span<const FitInput> objects, const PoseConfig& config) {
+std::vector<Estimate> EstimateScene(std::span<const FitInput> objects, const PoseConfig& config,
+                                    const std::function<double()>& now_ms) {
+  const auto now = [&] { return now_ms ? now_ms() : 0.0; };
   std::vector<Estimate> estimates;
   std::vector<Obstacle> obstacles;
   for (const FitInput& object : objects) {
-    estimates.push_back({FitObject(object, config.fit), {}});
-    obstacles.push_back(
-        MakeObstacle(object.points_F, estimates.back().fit, config.gripper.clearance_m));
+    const double start_ms = now();
+    Estimate& estimate = estimates.emplace_back();
+    estimate.fit = FitObject(object, config.fit);
+    estimate.time_ms = now() - start_ms;
+    obstacles.push_back(MakeObstacle(object.points_F, estimate.fit, config.gripper.clearance_m));
   }
   for (size_t i = 0; i < objects.size(); ++i) {
+    const double start_ms = now();
     estimates[i].grasps = GraspObject(objects[i], estimates[i].fit, {obstacles, i}, config.gripper);
+    estimates[i].time_ms += now() - start_ms;
   }
   return estimates;
 }

@@ -1,6 +1,7 @@
 // An object, or all of a scene: their superquadrics and how to grasp them.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct PoseConfig {
 struct Estimate {
   FitResult fit;
   std::vector<GraspCandidate> grasps;  // none without a table or a converged fit
+  double time_ms = 0;                  // of fit and grasps, where a clock was given
 };
 
 /// Fits an object, in the input's frame. The table's normal may point either way; it is turned to
@@ -30,7 +32,9 @@ std::vector<GraspCandidate> GraspObject(const FitInput& input, const FitResult& 
 /// Fits an object that stands alone, and proposes grasps.
 Estimate EstimateObject(const FitInput& input, const PoseConfig& config);
 
-/// The same of objects that stand together: the grasps of each stay clear of all others.
-std::vector<Estimate> EstimateScene(std::span<const FitInput> objects, const PoseConfig& config);
+/// The same of objects that stand together: the grasps of each stay clear of all others. `now_ms`,
+/// where given, is a clock that tells each object's time.
+std::vector<Estimate> EstimateScene(std::span<const FitInput> objects, const PoseConfig& config,
+                                    const std::function<double()>& now_ms = {});
 
 }  // namespace beckon::pose

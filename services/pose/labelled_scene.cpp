@@ -109,7 +109,7 @@ Result<LabelledScene> ReadLabelledScene(const Cloud& cloud, const std::string& p
   }
   const auto intrinsics = EstimateIntrinsics(cloud);
   if (!intrinsics) return intrinsics.error();
-  const auto image = ToImage(cloud, &*intrinsics);
+  auto image = ToImage(cloud, &*intrinsics);
   if (!image) return image.error();
   if (image->width != cloud.width || image->height != cloud.height) {
     return Error{"the cloud is " + std::to_string(cloud.width) + "x" +
@@ -135,6 +135,7 @@ Result<LabelledScene> ReadLabelledScene(const Cloud& cloud, const std::string& p
       scene.objects[label - 1u].points_C.push_back(image->Point(u, v).cast<float>());
     }
   }
+  scene.image = std::move(*image);
   return scene;
 }
 

@@ -20,6 +20,7 @@ struct LabelledObject {
 };
 
 struct LabelledScene {
+  RgbdImage image;
   Plane table_C;  // normal to the camera where it was found, as given otherwise
   std::vector<LabelledObject> objects;  // by label
 };

@@ -9,6 +9,7 @@
 #include "services/base/utime.h"
 #include "services/pose/labelled_scene.h"
 #include "services/pose/picture.h"
+#include "services/pose/picture_scene.h"
 #include "services/pose/pose_files.h"
 
 namespace beckon::pose {
@@ -46,46 +47,68 @@ struct Subject {
   std::vector<RimPoint> rim_F;
 };
 
-Result<std::vector<Subject>> ReadSubjects(const CloudRequest& request, const std::string& labels) {
+// Subjects that stand together, and the image that shows them where labels tell them apart.
+struct Group {
+  std::vector<Subject> subjects;
+  RgbdImage image;
+};
+
+Result<Group> ReadGroup(const CloudRequest& request, const std::string& labels) {
   auto cloud = ReadCloudFile(request.path);
   if (!cloud) return Error{request.where + cloud.error().message};
-  std::vector<Subject> subjects;
+  Group group;
   if (labels.empty()) {
-    subjects.push_back({request, std::move(cloud->points), {}});
-    return subjects;
+    group.subjects.push_back({request, std::move(cloud->points), {}});
+    return group;
   }
   auto scene = ReadLabelledScene(*cloud, labels, request.table_F);
   if (!scene) return Error{request.path + " with --labels: " + scene.error().message};
   for (LabelledObject& object : scene->objects) {
-    Subject& subject = subjects.emplace_back(
+    Subject& subject = group.subjects.emplace_back(
         Subject{request, std::move(object.points_C), std::move(object.rim_C)});
     subject.request.label = object.label;
     subject.request.table_F = scene->table_C;
   }
-  return subjects;
+  group.image = std::move(scene->image);
+  return group;
 }
 
-// Estimates `repeat` times; the result of each is the same, the time is the median.
-CloudPose EstimateRepeatedly(const Subject& subject, int repeat, const PoseConfig& config) {
-  CloudPose pose;
-  pose.request = subject.request;
-  std::vector<double> times_ms;
-  for (int i = 0; i < std::max(repeat, 1); ++i) {
-    const Stopwatch stopwatch;
-    pose.estimate = EstimateObject(
-        {subject.points_F, subject.request.table_F, subject.request.viewpoint_F, subject.rim_F},
-        config);
-    times_ms.push_back(stopwatch.Milliseconds());
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Estimates `repeat` times; the results of each are the same, the times are medians.
+std::vector<CloudPose> EstimateRepeatedly(const std::vector<Subject>& subjects, int repeat,
+                                          const PoseConfig& config) {
+  std::vector<FitInput> inputs;
+  for (const Subject& subject : subjects) {
+    inputs.push_back(
+        {subject.points_F, subject.request.table_F, subject.request.viewpoint_F, subject.rim_F});
   }
-  std::nth_element(times_ms.begin(), times_ms.begin() + static_cast<long>(times_ms.size() / 2),
-                   times_ms.end());
-  pose.time_ms = times_ms[times_ms.size() / 2];
-  return pose;
+  const Stopwatch stopwatch;
+  std::vector<Estimate> estimates;
+  std::vector<std::vector<double>> times_ms(subjects.size());
+  for (int i = 0; i < std::max(repeat, 1); ++i) {
+    estimates = EstimateScene(inputs, config, [&] { return stopwatch.Milliseconds(); });
+    for (size_t k = 0; k < subjects.size(); ++k) times_ms[k].push_back(estimates[k].time_ms);
+  }
+  std::vector<CloudPose> poses;
+  for (size_t k = 0; k < subjects.size(); ++k) {
+    estimates[k].time_ms = Median(times_ms[k]);
+    poses.push_back({subjects[k].request, std::move(estimates[k])});
+  }
+  return poses;
 }
 
-std::string Title(const CloudRequest& request) {
-  const std::string name = std::filesystem::path(request.file).filename().string();
-  return request.label == 0 ? name : name + " " + std::to_string(request.label);
+Status DrawLabelled(const std::string& path, const RgbdImage& image,
+                    const std::vector<CloudPose>& poses, const GripperConfig& gripper) {
+  std::vector<SceneObjectFit> objects;
+  for (const CloudPose& pose : poses) {
+    objects.push_back({std::to_string(pose.request.label), pose.estimate});
+  }
+  return DrawScene(path, image, objects, gripper);
 }
 
 }  // namespace
@@ -95,22 +118,26 @@ Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
   if (!requests) return requests.error();
   std::vector<CloudPose> poses;
   std::vector<Portrait> portraits;
+  RgbdImage image;  // of the only input, where it is labelled
   for (const CloudRequest& request : *requests) {
-    auto subjects = ReadSubjects(request, options.labels);
-    if (!subjects) return subjects.error();
-    for (Subject& subject : *subjects) {
-      poses.push_back(EstimateRepeatedly(subject, options.repeat, config));
-      if (options.picture.empty()) continue;
-      const FitResult& fit = poses.back().estimate.fit;
-      portraits.push_back(
-          {Title(subject.request), std::move(subject.points_F), fit.shape, fit.converged});
+    auto group = ReadGroup(request, options.labels);
+    if (!group) return group.error();
+    for (CloudPose& pose : EstimateRepeatedly(group->subjects, options.repeat, config)) {
+      poses.push_back(std::move(pose));
     }
+    image = std::move(group->image);
+    if (options.picture.empty() || !options.labels.empty()) continue;
+    portraits.push_back({std::filesystem::path(request.file).filename().string(),
+                         std::move(group->subjects.front().points_F), request.table_F,
+                         request.viewpoint_F, poses.back().estimate});
   }
   if (Status written = WriteTextFile(options.json, PosesToJson(poses, Name(config.fit.method)));
       !written) {
     return written;
   }
-  return options.picture.empty() ? Status{} : DrawPortraits(options.picture, portraits);
+  if (options.picture.empty()) return {};
+  return options.labels.empty() ? DrawPortraits(options.picture, portraits, config.gripper)
+                                : DrawLabelled(options.picture, image, poses, config.gripper);
 }
 
 }  // namespace beckon::pose

@@ -146,7 +146,7 @@ std::string PosesToJson(const std::vector<CloudPose>& poses, const std::string& 
                     {"grasps", grasps},
                     {"points", fit.points_used},
                     {"iterations", fit.iterations},
-                    {"time_ms", pose.time_ms}});
+                    {"time_ms", pose.estimate.time_ms}});
     if (pose.request.label != 0) list.back()["label"] = pose.request.label;
   }
   // File names that are not UTF-8 are kept readable rather than refused.

@@ -33,7 +33,6 @@ Result<Plane> ParsePlane(const std::string& text);
 struct CloudPose {
   CloudRequest request;
   Estimate estimate;
-  double time_ms = 0;
 };
 
 /// The JSON of docs/formats.md: a list in input order, all in the input's frame.

@@ -72,8 +72,8 @@ void SceneEstimator::GraspAll(const msg::Scene& scene) {
   for (size_t i = 0; i < known_.size(); ++i) {
     Known& known = known_[i];
     const Stopwatch stopwatch;
-    const pose::Estimate estimate{known.fit, GraspObject(InputOf(known, scene), known.fit,
-                                                         {obstacles, i}, config_.gripper)};
+    const pose::Estimate estimate{
+        known.fit, GraspObject(InputOf(known, scene), known.fit, {obstacles, i}, config_.gripper)};
     known.pose = ToMessage(estimate, scene.X_WC, known.pose.object_id,
                            known.fit_ms + stopwatch.Milliseconds());
   }
