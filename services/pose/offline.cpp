@@ -7,6 +7,7 @@
 
 #include "services/base/cloud_file.h"
 #include "services/base/utime.h"
+#include "services/pose/mesh.h"
 #include "services/pose/picture.h"
 #include "services/pose/pose_files.h"
 
@@ -52,6 +53,17 @@ CloudPose EstimateRepeatedly(CloudRequest request, const Cloud& cloud, int repea
   return pose;
 }
 
+// The surfaces of the fits that converged, as one PLY file.
+Status WriteMesh(const std::string& path, const std::vector<CloudPose>& poses) {
+  constexpr int kSegments = 64;
+  TriangleMesh mesh;
+  for (const CloudPose& pose : poses) {
+    const FitResult& fit = pose.estimate.fit;
+    if (fit.converged) Append(MakeMesh(fit.shape, kSegments), mesh);
+  }
+  return WriteTextFile(path, MeshToPly(mesh));
+}
+
 }  // namespace
 
 Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
@@ -71,6 +83,9 @@ Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
   if (Status written = WriteTextFile(options.json, PosesToJson(poses, Name(config.fit.method)));
       !written) {
     return written;
+  }
+  if (!options.mesh.empty()) {
+    if (Status written = WriteMesh(options.mesh, poses); !written) return written;
   }
   return options.picture.empty() ? Status{} : DrawPortraits(options.picture, portraits);
 }

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "services/pose/solid.h"
 #include "services/pose/surface.h"
 
 namespace beckon::pose {
