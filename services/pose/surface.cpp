@@ -123,11 +123,11 @@ Eigen::Vector3d SurfacePoint(const Superquadric& shape, double latitude, double 
 }
 
 std::vector<Eigen::Vector3d> SampleSurface(const Superquadric& shape, int count) {
-  constexpr int kMinRows = 24, kMaxRows = 192;
+  constexpr int kMinRows = 16, kMaxRows = 192;
   std::vector<Eigen::Vector3d> points;
   points.reserve(static_cast<size_t>(std::max(count, 0)));
-  // Cells smaller than the distance between points.
-  const int rows = 8 * static_cast<int>(std::ceil(std::sqrt(std::max(count, 1)) / 4));
+  // Cells about half as long as the distance between points.
+  const int rows = 8 * static_cast<int>(std::lround(std::sqrt(std::max(count, 1)) / 4));
   const AreaGrid grid(shape, std::clamp(rows, kMinRows, kMaxRows));
   // The golden ratio is what fractions approximate worst: no two points of this lattice are near
   // each other however the square that it fills is stretched.

@@ -15,7 +15,7 @@ Eigen::Vector3d SurfacePoint(const Superquadric& shape, double latitude, double 
 
 /// `count` points of the surface in F, evenly spread by area (to about a percent) and apart from
 /// each other, for all exponents, elongations and tapers; for a sphere the Fibonacci lattice. The
-/// same points every time. About 0.1 us a point.
+/// same points every time.
 std::vector<Eigen::Vector3d> SampleSurface(const Superquadric& shape, int count);
 
 /// Mean radial distance of b's surface from a's, both ways, m: how different two shapes are

@@ -92,7 +92,7 @@ TEST(SolidMoments, AgreeWithAMesh) {
       Superquadric s = MakeShape(kAxes, e1, e2, {0.1, -0.2, 0.8}, {0.4, 0.9, -0.3});
       for (const Vector2d& taper : {Vector2d(0, 0), Vector2d(0.8, -0.4), Vector2d(-0.5, -0.9)}) {
         s.taper = taper;
-        const SolidMoments solid = ComputeSolidMoments(s), mesh = Integrate(MakeMesh(s, 512));
+        const SolidMoments solid = ComputeSolidMoments(s), mesh = Integrate(MakeMesh(s, 384));
         EXPECT_NEAR(solid.volume_m3 / mesh.volume_m3, 1, 1e-3) << e1 << ' ' << e2;
         EXPECT_LT((solid.centroid_F - mesh.centroid_F).norm(), 1e-5) << e1 << ' ' << e2;
         EXPECT_LT((solid.covariance_F - mesh.covariance_F).norm(), 2e-3 * mesh.covariance_F.norm())

@@ -45,7 +45,7 @@ TEST(SampleSurface, LiesOnItWithAndWithoutTaper) {
   for (double e1 : kExponents) {
     for (double e2 : kExponents) {
       Superquadric s = MakeShape({0.02, 0.06, 0.11}, e1, e2, {1, 2, 3}, {0.3, 0.2, -0.9});
-      for (const Vector2d& taper : {Vector2d(0, 0), Vector2d(0.3, -0.2), Vector2d(0.9, -1)}) {
+      for (const Vector2d& taper : {Vector2d(0, 0), Vector2d(0.3, -0.2), Vector2d(0.9, -0.95)}) {
         s.taper = taper;
         const auto points = SampleSurface(s, 200);
         ASSERT_EQ(points.size(), 200u);
@@ -67,24 +67,33 @@ TEST(SampleSurface, SpreadsOverASphereEvenly) {
   for (int n : octants) EXPECT_NEAR(n, kCount / 8, 10);
 }
 
-// The share of the points on each pair of a box's faces.
-Vector3d FaceShares(const Superquadric& box, int count) {
-  Vector3d share = Vector3d::Zero();
-  for (const auto& p : SampleSurface(box, count)) {
-    int face;
-    p.cwiseQuotient(box.semi_axes).cwiseAbs().maxCoeff(&face);
-    share[face] += 1.0 / count;
+// Which pair of a box's faces a point is on: 0 those across x, ..
+int FaceOf(const Superquadric& box, const Vector3d& p) {
+  int face;
+  p.cwiseQuotient(box.semi_axes).cwiseAbs().maxCoeff(&face);
+  return face;
+}
+
+// The share of the area of each pair of faces, of a mesh fine enough for their rounded edges.
+Vector3d AreaShares(const Superquadric& box) {
+  const TriangleMesh mesh = MakeMesh(box, 256);
+  Vector3d area = Vector3d::Zero();
+  for (const auto& t : mesh.triangles) {
+    const auto corner = [&](size_t i) { return mesh.vertices_F[static_cast<size_t>(t[i])]; };
+    area[FaceOf(box, corner(0) + corner(1) + corner(2))] +=
+        (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
   }
-  return share;
+  return area / area.sum();
 }
 
 TEST(SampleSurface, GivesABoxsFacesPointsByTheirArea) {
   for (const Vector3d& a : {Vector3d(1, 1, 1), Vector3d(2, 2, 12), Vector3d(12, 2, 2),
                             Vector3d(2, 12, 2), Vector3d(12, 12, 1), Vector3d(1, 3, 5)}) {
     const Superquadric box = MakeShape(a, 0.05, 0.05);
-    const Vector3d area(a.y() * a.z(), a.x() * a.z(), a.x() * a.y());
+    const Vector3d expected = AreaShares(box);
     for (int count : {150, 2000}) {
-      const Vector3d error = FaceShares(box, count) - area / area.sum();
+      Vector3d error = -expected;
+      for (const auto& p : SampleSurface(box, count)) error[FaceOf(box, p)] += 1.0 / count;
       EXPECT_LT(error.cwiseAbs().maxCoeff(), count < 1000 ? 0.03 : 0.01)
           << a.transpose() << ", " << count << " points, off by " << error.transpose();
     }
@@ -102,26 +111,28 @@ TEST(SampleSurface, DoesNotCrowdABoxsEdges) {
     near_upright_edge += std::min(u.x(), u.y()) > 0.85;
     near_end += u.z() > 0.9;
   }
-  EXPECT_NEAR(near_upright_edge, 0.15 * on_side, 0.03 * on_side);
-  EXPECT_NEAR(near_end, 0.1 * on_side, 0.01 * on_side);
+  const double end = std::pow(2, -0.025);  // where the rounded edge is highest
+  EXPECT_NEAR(near_upright_edge, (end - 0.85) / end * on_side, 0.02 * on_side);
+  EXPECT_NEAR(near_end, (end - 0.9) / end * on_side, 0.01 * on_side);
 }
 
 TEST(SampleSurface, KeepsPointsApartAndLeavesNoHoles) {
-  constexpr int kCount = 500;
+  constexpr int kCount = 400;
   for (double e1 : kExponents) {
     for (double e2 : kExponents) {
       for (const Vector3d& a : {Vector3d(2, 2, 2), Vector3d(2, 2, 12), Vector3d(12, 3, 2)}) {
         Superquadric s = MakeShape(a, e1, e2);
         for (const Vector2d& taper : {Vector2d(0, 0), Vector2d(0.5, -0.3)}) {
           s.taper = taper;
-          const double spacing = std::sqrt(Area(MakeMesh(s, 128)) / kCount);
+          const double spacing = std::sqrt(Area(MakeMesh(s, 64)) / kCount);
           auto gaps = Gaps(SampleSurface(s, kCount));
           std::sort(gaps.begin(), gaps.end());
           const std::string what = "e " + std::to_string(e1) + ' ' + std::to_string(e2) + " a " +
                                    std::to_string(a.x()) + " taper " + std::to_string(taper.x());
-          EXPECT_GT(gaps[kCount / 50], 0.3 * spacing) << what;
+          EXPECT_GT(gaps[kCount / 50], 0.2 * spacing) << what;
           EXPECT_GT(gaps[kCount / 2], 0.55 * spacing) << what;
-          EXPECT_LT(gaps.back(), 1.6 * spacing) << what;
+          EXPECT_LT(gaps[kCount - kCount / 50], 1.6 * spacing) << what;
+          EXPECT_LT(gaps.back(), 2.5 * spacing) << what;  // in the tips of a thin diamond
         }
       }
     }
