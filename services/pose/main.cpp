@@ -45,6 +45,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", offline.json, "Where the poses go")->type_name("OUT.json");
   app.add_option("--picture", offline.picture, "Where a picture of them goes")
       ->type_name("OUT.png");
+  app.add_option("--mesh", offline.mesh, "Where the converged shapes go as triangles")
+      ->type_name("OUT.ply");
   app.add_option("--repeat", offline.repeat, "Fits of each cloud; the median time is told")
       ->check(CLI::Range(1, 1000000));
 
@@ -59,8 +61,8 @@ int main(int argc, char** argv) {
       config->fit.method = *parsed;
     }
     if (options.check_config) return {};
-    const bool outputs =
-        !offline.json.empty() || !offline.picture.empty() || !offline.labels.empty();
+    const bool outputs = !offline.json.empty() || !offline.picture.empty() ||
+                         !offline.mesh.empty() || !offline.labels.empty();
     if (offline.inputs.empty() && offline.list.empty() && !outputs) return Serve(options, *config);
     if (offline.json.empty()) return Error{"expected --json OUT.json with --input or --list"};
     return pose::RunOffline(offline, *config);

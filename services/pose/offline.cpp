@@ -8,6 +8,7 @@
 #include "services/base/cloud_file.h"
 #include "services/base/utime.h"
 #include "services/pose/labelled_scene.h"
+#include "services/pose/mesh.h"
 #include "services/pose/picture.h"
 #include "services/pose/picture_scene.h"
 #include "services/pose/pose_files.h"
@@ -15,7 +16,7 @@
 namespace beckon::pose {
 namespace {
 
-Result<std::vector<CloudRequest>> Requests(const OfflineOptions& options) {
+Result<std::vector<CloudRequest>> Requests(const OfflineOptions &options) {
   if (options.inputs.empty() == options.list.empty()) {
     return Error{"expected either --input CLOUD.. or --list LIST.jsonl"};
   }
@@ -29,8 +30,8 @@ Result<std::vector<CloudRequest>> Requests(const OfflineOptions& options) {
     return Error{"--labels goes with one --input, found " + std::to_string(options.inputs.size())};
   }
   std::vector<CloudRequest> requests;
-  for (const std::string& file : options.inputs) {
-    CloudRequest& request = requests.emplace_back();
+  for (const std::string &file : options.inputs) {
+    CloudRequest &request = requests.emplace_back();
     request.file = request.path = file;
     if (options.plane.empty()) continue;
     const Result<Plane> plane = ParsePlane(options.plane);
@@ -47,13 +48,14 @@ struct Subject {
   std::vector<RimPoint> rim_F;
 };
 
-// Subjects that stand together, and the image that shows them where labels tell them apart.
+// Subjects that stand together, and the image that shows them where labels tell
+// them apart.
 struct Group {
   std::vector<Subject> subjects;
   RgbdImage image;
 };
 
-Result<Group> ReadGroup(const CloudRequest& request, const std::string& labels) {
+Result<Group> ReadGroup(const CloudRequest &request, const std::string &labels) {
   auto cloud = ReadCloudFile(request.path);
   if (!cloud) return Error{request.where + cloud.error().message};
   Group group;
@@ -63,8 +65,8 @@ Result<Group> ReadGroup(const CloudRequest& request, const std::string& labels) 
   }
   auto scene = ReadLabelledScene(*cloud, labels, request.table_F);
   if (!scene) return Error{request.path + " with --labels: " + scene.error().message};
-  for (LabelledObject& object : scene->objects) {
-    Subject& subject = group.subjects.emplace_back(
+  for (LabelledObject &object : scene->objects) {
+    Subject &subject = group.subjects.emplace_back(
         Subject{request, std::move(object.points_C), std::move(object.rim_C)});
     subject.request.label = object.label;
     subject.request.table_F = scene->table_C;
@@ -79,11 +81,12 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// Estimates `repeat` times; the results of each are the same, the times are medians.
-std::vector<CloudPose> EstimateRepeatedly(const std::vector<Subject>& subjects, int repeat,
-                                          const PoseConfig& config) {
+// Estimates `repeat` times; the results of each are the same, the times are
+// medians.
+std::vector<CloudPose> EstimateRepeatedly(const std::vector<Subject> &subjects, int repeat,
+                                          const PoseConfig &config) {
   std::vector<FitInput> inputs;
-  for (const Subject& subject : subjects) {
+  for (const Subject &subject : subjects) {
     inputs.push_back(
         {subject.points_F, subject.request.table_F, subject.request.viewpoint_F, subject.rim_F});
   }
@@ -102,27 +105,38 @@ std::vector<CloudPose> EstimateRepeatedly(const std::vector<Subject>& subjects, 
   return poses;
 }
 
-Status DrawLabelled(const std::string& path, const RgbdImage& image,
-                    const std::vector<CloudPose>& poses, const GripperConfig& gripper) {
+Status DrawLabelled(const std::string &path, const RgbdImage &image,
+                    const std::vector<CloudPose> &poses, const GripperConfig &gripper) {
   std::vector<SceneObjectFit> objects;
-  for (const CloudPose& pose : poses) {
+  for (const CloudPose &pose : poses) {
     objects.push_back({std::to_string(pose.request.label), pose.estimate});
   }
   return DrawScene(path, image, objects, gripper);
 }
 
+// The surfaces of the fits that converged, as one PLY file.
+Status WriteMesh(const std::string &path, const std::vector<CloudPose> &poses) {
+  constexpr int kSegments = 64;
+  TriangleMesh mesh;
+  for (const CloudPose &pose : poses) {
+    const FitResult &fit = pose.estimate.fit;
+    if (fit.converged) Append(MakeMesh(fit.shape, kSegments), mesh);
+  }
+  return WriteTextFile(path, MeshToPly(mesh));
+}
+
 }  // namespace
 
-Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
+Status RunOffline(const OfflineOptions &options, const PoseConfig &config) {
   const auto requests = Requests(options);
   if (!requests) return requests.error();
   std::vector<CloudPose> poses;
   std::vector<Portrait> portraits;
   RgbdImage image;  // of the only input, where it is labelled
-  for (const CloudRequest& request : *requests) {
+  for (const CloudRequest &request : *requests) {
     auto group = ReadGroup(request, options.labels);
     if (!group) return group.error();
-    for (CloudPose& pose : EstimateRepeatedly(group->subjects, options.repeat, config)) {
+    for (CloudPose &pose : EstimateRepeatedly(group->subjects, options.repeat, config)) {
       poses.push_back(std::move(pose));
     }
     image = std::move(group->image);
@@ -134,6 +148,9 @@ Status RunOffline(const OfflineOptions& options, const PoseConfig& config) {
   if (Status written = WriteTextFile(options.json, PosesToJson(poses, Name(config.fit.method)));
       !written) {
     return written;
+  }
+  if (!options.mesh.empty()) {
+    if (Status written = WriteMesh(options.mesh, poses); !written) return written;
   }
   if (options.picture.empty()) return {};
   return options.labels.empty() ? DrawPortraits(options.picture, portraits, config.gripper)

@@ -16,6 +16,7 @@ struct OfflineOptions {
   std::string list;    // instead of inputs
   std::string json;    // output
   std::string picture;  // output; empty: none
+  std::string mesh;     // output; empty: none
   int repeat = 1;       // times each cloud is estimated; the median time is told
 };
 

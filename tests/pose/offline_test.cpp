@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "services/base/ply_file.h"
 #include "services/pose/pose_files.h"
 #include "tests/pose/program.h"
 #include "tests/pose/views.h"
@@ -45,7 +46,7 @@ TEST_F(OfflineTest, FitsAListInItsOrder) {
   Write("list.jsonl",
         ListLine("clouds/can.xyz", can_.table_C) + "\n" + ListLine("clouds/box.xyz", box_.table_C));
   ASSERT_EQ(Run("--list " + Path("list.jsonl") + " --json " + Path("out.json") + " --picture " +
-                Path("out.png") + " --repeat 3"),
+                Path("out.png") + " --mesh " + Path("out.ply") + " --repeat 3"),
             0)
       << error_;
   const json poses = json::parse(Read("out.json"));
@@ -70,6 +71,11 @@ TEST_F(OfflineTest, FitsAListInItsOrder) {
     EXPECT_GT(pose["grasps"][0]["opening_m"].get<double>(), 0);
   }
   EXPECT_EQ(Read("out.png").substr(1, 3), "PNG");
+  const auto mesh = cloud::ParsePly(Read("out.ply"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  ASSERT_EQ(mesh->points.size() % 2, 0u);
+  const Eigen::Vector3d pole = mesh->points[0].cast<double>();  // the can's, the first in the list
+  EXPECT_LT((pole - can_.shape_C.X_FO.translation()).norm(), 0.07);
 }
 
 TEST_F(OfflineTest, FitsInputsWithAndWithoutAPlane) {

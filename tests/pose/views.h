@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/base/rgbd.h"
+#include "services/pose/solid.h"
 #include "services/pose/surface.h"
 
 namespace beckon::pose {
