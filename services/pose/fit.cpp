@@ -20,8 +20,11 @@ constexpr int kJudges = 1000;  // points that the mean distance is taken of, at 
 constexpr int kWitnesses = 300;
 constexpr double kThinnest_m = 0.0005;  // spread below which points lie on a plane or a line
 
-constexpr std::array<std::pair<Method, const char*>, 2> kMethods{
-    {{Method::kAdaptive, "adaptive"}, {Method::kMultiscale, "multiscale"}}};
+constexpr std::array<std::pair<Method, const char*>, 4> kMethods{
+    {{Method::kAdaptive, "adaptive"},
+     {Method::kMultiscale, "multiscale"},
+     {Method::kClassic, "classic"},
+     {Method::kHierarchical, "hierarchical"}}};
 
 template <typename... Args>
 std::string Text(const char* format, Args... args) {
@@ -96,6 +99,20 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const Poin
   return 0.5 * (pose + pose.transpose());
 }
 
+MethodOutcome FitBy(const FitConfig& config, const PointList& points, const FitInput& input) {
+  switch (config.method) {
+    case Method::kMultiscale:
+      return FitMultiscale(points, config.multiscale);
+    case Method::kClassic:
+      return FitClassic(points, config.classic);
+    case Method::kHierarchical:
+      return FitHierarchical(points, config.hierarchical);
+    case Method::kAdaptive:
+      break;
+  }
+  return FitAdaptive(points, input.table_F, input.viewpoint_F, config.adaptive);
+}
+
 bool IsFinite(const Superquadric& s) {
   return s.semi_axes.allFinite() && s.semi_axes.minCoeff() > 0 && s.epsilon.allFinite() &&
          s.taper.allFinite() && s.X_FO.matrix().allFinite();
@@ -104,12 +121,18 @@ bool IsFinite(const Superquadric& s) {
 }  // namespace
 
 Result<Method> ParseMethod(const std::string& name) {
-  std::string names;
   for (const auto& [method, known] : kMethods) {
     if (name == known) return method;
-    names += (names.empty() ? "" : ", ") + std::string(known);
   }
-  return Error{"there is no fitting method '" + name + "'; this build has: " + names};
+  return Error{"there is no fitting method '" + name + "'; this build has: " + MethodNames()};
+}
+
+std::string MethodNames() {
+  std::string names;
+  for (const auto& [method, name] : kMethods) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
 }
 
 const char* Name(Method method) {
@@ -135,10 +158,7 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
                       : Unfit(box, config);
   if (!result.reason.empty()) return result;
 
-  const MethodOutcome outcome =
-      config.method == Method::kAdaptive
-          ? FitAdaptive(points, input.table_F, input.viewpoint_F, config.adaptive)
-          : FitMultiscale(points, config.multiscale);
+  const MethodOutcome outcome = FitBy(config, points, input);
   result.iterations = outcome.iterations;
   if (!IsFinite(outcome.shape)) {
     result.reason = "the fit did not stay finite";

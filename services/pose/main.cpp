@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
       ->type_name("nx,ny,nz,d");
   app.add_option("--list", offline.list, "A line {\"file\": .., \"plane\": [..]} for each cloud")
       ->type_name("LIST.jsonl");
-  app.add_option("--method", method, "adaptive or multiscale (default: the configuration's)");
+  app.add_option("--method", method,
+                 "One of " + pose::MethodNames() + " (default: the configuration's)");
   app.add_option("--json", offline.json, "Where the poses go")->type_name("OUT.json");
   app.add_option("--picture", offline.picture, "Where a picture of them goes")
       ->type_name("OUT.png");

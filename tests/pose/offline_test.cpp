@@ -105,7 +105,7 @@ TEST_F(OfflineTest, RefusesBadInputInOneLine) {
   const std::string box = "--input " + Path("box.xyz");
   ExpectRefusal("--input " + Path("absent.xyz") + json_out, "absent.xyz");
   ExpectRefusal("--list " + Path("absent.jsonl") + json_out, "absent.jsonl");
-  ExpectRefusal(box + json_out + " --method classic", "adaptive, multiscale");
+  ExpectRefusal(box + json_out + " --method guess", "adaptive, multiscale");
   ExpectRefusal(box + json_out + " --plane 0,0,1", "4 numbers");
   ExpectRefusal(box + json_out + " --plane 0,0,0,1", "not zero");
   ExpectRefusal(box + json_out + " --plane a,b,c,d", "found 'a'");
