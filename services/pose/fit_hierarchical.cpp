@@ -1,4 +1,4 @@
-// The hierarchical RANSAC search of Biegelbauer & Vincze (ICRA 2007).
+// A hierarchical RANSAC search for a superquadric with ranked voting.
 #include "services/pose/fit_hierarchical.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "services/pose/principal_start.h"
 #include "services/pose/seeded_draws.h"
+#include "services/pose/solid.h"
 #include "services/pose/solina_problem.h"
 #include "services/pose/surface.h"
 

@@ -1,6 +1,6 @@
-// A hierarchical RANSAC search for a superquadric with ranked voting, after Biegelbauer & Vincze,
-// "Efficient 3D object detection by fitting superquadrics to range image data for robot's object
-// manipulation" (ICRA 2007).
+// A hierarchical RANSAC search for a superquadric with ranked voting, after the abstract of
+// Biegelbauer & Vincze, "Efficient 3D object detection by fitting superquadrics to range image data
+// for robot's object manipulation" (ICRA 2007).
 #pragma once
 
 #include <vector>
@@ -29,23 +29,22 @@ struct HierarchicalConfig {
 
 /// Fits a superquadric to at least 20 points that are not coplanar. Deterministic by the seed;
 /// neither table nor viewpoint are used.
-///   1. Hypotheses: a random seed point of the coarsest voxel grid, its neighbourhood, random
-///   points
-///      of that; an ellipsoid along their principal axes (each in turn as z); a few steps of
-///      Levenberg-Marquardt on SolinaProblem.
+///   1. Hypotheses: random points near a random seed point of the coarsest voxel grid; an ellipsoid
+///      along their principal axes (each in turn as z); a few steps of Levenberg-Marquardt on
+///      SolinaProblem.
 ///   2. Verification by all points of the level: points that are missed, mean radial distance,
 ///      points deep inside, volume. Less is better in each.
 ///   3. Ranked voting: the hypotheses are sorted by each criterion, the places a hypothesis takes
 ///      are summed, and those with the smallest sums go on to the next finer level, where they are
 ///      refined on all its points and verified again (2). The last level is the cloud itself.
 ///
-/// Taken from the paper: the random search from coarse to fine, the seed points and neighbourhoods,
-/// second moments as pre-alignment, Levenberg-Marquardt on the inside-outside function, criteria of
-/// fit that are sorted and voted on by rank so that they need no weights. Chosen here: the paper
-/// looks for objects whose size and shape it knows and fits their pose; here all eleven parameters
-/// are free, and so the neighbourhood's radius is random, sizes are limited by BoundsByExtent, and
-/// the criteria and all numbers are this program's own. Volume stands for what the paper's known
-/// size says: of two shapes that explain the points, the less deep one.
+/// Of the paper this follows the abstract only: RANSAC from coarse to fine, and criteria of fit
+/// that are sorted and voted on by rank. The paper's text and the authors' later one (2010) were
+/// not at hand; that seed points have neighbourhoods and that second moments pre-align is common
+/// knowledge of such methods, not checked against them. All else is chosen here: all eleven
+/// parameters are free, so the neighbourhood's radius is random and sizes are limited by
+/// BoundsByExtent; the criteria, with volume to prefer the less deep of two shapes that explain the
+/// points; and all numbers. The authors' results need not hold for it.
 MethodOutcome FitHierarchical(const PointList& points_F, const HierarchicalConfig& config);
 
 }  // namespace beckon::pose
