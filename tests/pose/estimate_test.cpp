@@ -41,5 +41,15 @@ TEST(Estimate, OfASceneKeepsGraspsOffTheNeighbours) {
   EXPECT_FALSE(scene[0].grasps.empty());
 }
 
+TEST(Estimate, OfASceneTimesTheFitAndTheGraspsOfEachObject) {
+  const TableView box = ViewOnTable(MakeShape({0.02, 0.03, 0.05}, 0.1, 0.1, {0, 0, 0.05}), 500);
+  const FitInput inputs[] = {{box.points_C, box.table_C}, {box.points_C, box.table_C}};
+  double now_ms = 100;
+  const auto estimates = EstimateScene(inputs, {}, [&] { return now_ms += 5; });
+  ASSERT_EQ(estimates.size(), 2u);
+  for (const Estimate& estimate : estimates) EXPECT_EQ(estimate.time_ms, 2 * 5);
+  EXPECT_EQ(EstimateScene(inputs, {})[0].time_ms, 0);
+}
+
 }  // namespace
 }  // namespace beckon::pose
