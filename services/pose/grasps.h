@@ -18,9 +18,10 @@ inline constexpr int kMostGrasps = 16;  // what a message carries
 /// tips.
 struct GraspCandidate {
   Pose X_FG = Pose::Identity();
-  double opening_m = 0;                         // before closing
-  double score = 0;                             // 0..1
-  std::array<Eigen::Vector3d, 2> contacts_F{};  // on the surface, towards +x of G and towards -x
+  double opening_m = 0;  // before closing
+  double score = 0;      // 0..1
+  // On the surface, towards +x of G and towards -x.
+  std::array<Eigen::Vector3d, 2> contacts_F{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
 /// Antipodal grasps of `fit`, best first, at most kMostGrasps, no two of them nearly the same; none
