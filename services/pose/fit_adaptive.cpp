@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/pose/outline.h"
+#include "services/pose/distance_kernel.h"
+#include "services/pose/silhouette.h"
 #include "services/pose/starts.h"
 #include "services/pose/surface.h"
 
@@ -27,38 +28,46 @@ Robust Cauchy(double residual, double scale) {
 struct Scene {
   std::optional<Plane> table;
   Eigen::Vector3d viewpoint;
-  std::vector<TangentPlane> outline;
 };
 
 class AdaptiveProblem : public FitProblem {
  public:
   /// `upright` is the axis of the shape that is to be vertical.
-  AdaptiveProblem(const PointList& points, const Scene& scene, int upright,
+  AdaptiveProblem(const PointBlock& points, const PointBlock& rays, const Scene& scene, int upright,
                   const AdaptiveConfig& config)
-      : points_(points), scene_(scene), upright_(upright), config_(config) {}
+      : points_(points), rays_(rays), scene_(scene), upright_(upright), config_(config) {}
 
   NormalEquations Linearise(const Superquadric& shape) const override {
     NormalEquations eq;
-    AddPoints(shape, eq);
+    DistanceSum sum = SumDistances(shape, points_, {config_.noise_m, config_.noise_m});
+    AddKernel(shape, sum, 1.0, eq);
+    if (rays_.size > 0) {
+      PointBlock deepest;
+      FindDeepest(shape, scene_.viewpoint, rays_, deepest);
+      sum = SumDistances(shape, deepest, {config_.outline_noise_m, config_.outline_outside_m});
+      AddKernel(shape, sum, config_.outline_weight, eq);
+    }
     if (scene_.table) {
       AddSupport(shape, eq);
       AddTilt(shape, eq);
     }
-    AddOutline(shape, eq);
     eq.cost += config_.volume_prior_m2 * shape.semi_axes.array().log().sum();
     eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
     return eq;
   }
 
  private:
-  void AddPoints(const Superquadric& shape, NormalEquations& eq) const {
-    const double share = 1.0 / static_cast<double>(points_.size());
-    for (const auto& p : points_) {
-      const SurfaceDistance d = DistanceToSurface(shape, p);
-      const Robust robust = Cauchy(d.distance_m, config_.noise_m);
-      eq.Add(d.distance_m, d.jacobian, share * robust.weight);
-      eq.cost += share * robust.cost;
-    }
+  // The kernel's derivatives by rotation and translation are in O.
+  static void AddKernel(const Superquadric& shape, const DistanceSum& sum, double weight,
+                        NormalEquations& eq) {
+    Eigen::Matrix<double, kKernelParameters, kKernelParameters> turn;
+    turn.setIdentity();
+    turn.block<3, 3>(kRotation, kRotation) = shape.X_FO.linear();
+    turn.block<3, 3>(kTranslation, kTranslation) = shape.X_FO.linear();
+    eq.cost += weight * sum.cost;
+    eq.gradient.head<kKernelParameters>() += weight * (turn * sum.gradient);
+    eq.hessian.topLeftCorner<kKernelParameters, kKernelParameters>() +=
+        weight * (turn * sum.hessian * turn.transpose());
   }
 
   // max of n·p over the shape, with its derivatives by the parameters.
@@ -96,21 +105,8 @@ class AdaptiveProblem : public FitProblem {
     }
   }
 
-  // The planes through the viewpoint that touch the visible outline touch the shape.
-  void AddOutline(const Superquadric& shape, NormalEquations& eq) const {
-    if (scene_.outline.empty()) return;
-    const double share = config_.outline_weight / static_cast<double>(scene_.outline.size());
-    ParameterVector jacobian;
-    for (const TangentPlane& plane : scene_.outline) {
-      const double beyond =
-          Reach(shape, plane.normal_F, jacobian) - plane.normal_F.dot(scene_.viewpoint);
-      const Robust robust = Cauchy(beyond, config_.outline_noise_m);
-      eq.Add(beyond, jacobian, share * robust.weight);
-      eq.cost += share * robust.cost;
-    }
-  }
-
-  const PointList& points_;
+  const PointBlock& points_;
+  const PointBlock& rays_;
   const Scene& scene_;
   const int upright_;
   const AdaptiveConfig& config_;
@@ -135,6 +131,15 @@ PointList EvenlySpread(const PointList& points, int count, double size_m) {
     voxel_m *= std::sqrt(ratio);  // points lie on a surface
   }
   return VoxelCentroids(points, voxel_m);
+}
+
+// Every so manieth of the points, at most `most`, of equal weight, 1 together.
+PointBlock Block(const PointList& points, int most) {
+  PointBlock block;
+  const PointList part = Thinned(points, std::min(most, kBlockSize));
+  for (const auto& p : part) block.Add(p, 1.0 / static_cast<double>(part.size()));
+  block.Pad();
+  return block;
 }
 
 // Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
@@ -163,13 +168,14 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
                           const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
   const double size =
       ComputePrincipalBox(Thinned(points_F, kPointsForSize)).half_extents.maxCoeff();
-  const PointList fine = EvenlySpread(points_F, config.fine_points, 2 * size);
-  const std::vector<Superquadric> starts = Starts(fine, table_F);
+  const PointList spread = EvenlySpread(points_F, config.fine_points, 2 * size);
+  const std::vector<Superquadric> starts = Starts(spread, table_F);
   const double reach = starts[0].semi_axes.maxCoeff();
-  const PointList coarse = Thinned(fine, config.coarse_points);
-  const Scene scene{table_F, viewpoint_F,
-                    OutlinePlanes(points_F, viewpoint_F, table_F, config.outline_planes,
-                                  config.pixel_rad, config.table_margin_m)};
+  const PointBlock fine = Block(spread, kBlockSize), coarse = Block(spread, config.coarse_points);
+  const Scene scene{table_F, viewpoint_F};
+  const Silhouette silhouette =
+      TraceSilhouette(points_F, {}, viewpoint_F, table_F,
+                      {config.outline_rays, config.pixel_rad, config.table_margin_m});
   FitBounds bounds;
   bounds.min_axes.setConstant(config.min_semi_axis_m);
   bounds.max_axes.setConstant(std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
@@ -178,31 +184,50 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
 
   MethodOutcome outcome;
   LmOptions options{config.coarse_iterations, 1e-3};
-  std::vector<LmResult> fits;
-  for (const Superquadric& start : starts) {
-    const AdaptiveProblem problem(coarse, scene, UprightAxis(start, table_F), config);
-    fits.push_back(Minimise(problem, start, bounds, options));
-    outcome.iterations.push_back(fits.back().iterations);
-  }
-  const auto cheaper = [](const LmResult& a, const LmResult& b) {
-    return a.at_minimum.cost < b.at_minimum.cost;
+  std::vector<Superquadric> fits;
+  std::vector<std::pair<double, size_t>> order;
+  const auto judge = [&](const Superquadric& shape) {
+    const AdaptiveProblem whole(coarse, silhouette.rays_F, scene, UprightAxis(shape, table_F), config);
+    order.emplace_back(whole.Linearise(shape).cost, fits.size());
+    fits.push_back(shape);
   };
-  std::stable_sort(fits.begin(), fits.end(), cheaper);
-  fits.resize(2);
+  for (const Superquadric& start : starts) {
+    const AdaptiveProblem problem(coarse, silhouette.rays_F, scene, UprightAxis(start, table_F), config);
+    const LmResult fit = Minimise(problem, start, bounds, options);
+    outcome.iterations.push_back(fit.iterations);
+    judge(fit.shape);
+  }
+  std::sort(order.begin(), order.end());
+  if (config.cut_hypotheses) {
+    const size_t bases[2] = {order[0].second, order[1].second};
+    for (const std::vector<int>& straight : silhouette.straights) {
+      PointBlock rays = silhouette.rays_F;
+      for (int i : straight) rays.weight[static_cast<size_t>(i)] = 0;
+      for (size_t base : bases) {
+        const AdaptiveProblem problem(coarse, rays, scene, UprightAxis(fits[base], table_F), config);
+        const LmResult fit = Minimise(problem, fits[base], bounds, {config.cut_iterations, 1e-3});
+        outcome.iterations.push_back(fit.iterations);
+        judge(fit.shape);
+      }
+    }
+    std::sort(order.begin(), order.end());
+  }
 
   options = {config.fine_iterations, 1e-4};
-  for (LmResult& fit : fits) {
-    const AdaptiveProblem problem(fine, scene, UprightAxis(fit.shape, table_F), config);
-    fit = Minimise(problem, fit.shape, bounds, options);
-    outcome.iterations.push_back(fit.iterations);
+  std::vector<LmResult> best;
+  for (int i = 0; i < 2; ++i) {
+    const Superquadric& start = fits[order[static_cast<size_t>(i)].second];
+    const AdaptiveProblem problem(fine, silhouette.rays_F, scene, UprightAxis(start, table_F), config);
+    best.push_back(Minimise(problem, start, bounds, options));
+    outcome.iterations.push_back(best.back().iterations);
   }
-  std::stable_sort(fits.begin(), fits.end(), cheaper);
-  outcome.shape = fits[0].shape;
-  outcome.converged = fits[0].converged;
-  const bool other_shape = MeanRadialDistance(fits[1].shape, fine) <
-                               kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
-                           ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
-  outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, fine, scene, config.unseen_foot_m);
+  if (best[1].at_minimum.cost < best[0].at_minimum.cost) std::swap(best[0], best[1]);
+  outcome.shape = best[0].shape;
+  outcome.converged = best[0].converged;
+  const bool other_shape = MeanRadialDistance(best[1].shape, spread) <
+                               kAboutAsGood * MeanRadialDistance(best[0].shape, spread) &&
+                           ShapeDifference(best[0].shape, best[1].shape) > kOtherShape_m;
+  outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, spread, scene, config.unseen_foot_m);
   return outcome;
 }
 

@@ -29,9 +29,12 @@ struct AdaptiveConfig {
   // Where the shape should be seen this much lower than it is, it may stand on another: ambiguous.
   double unseen_foot_m = 0.03;
   // What the viewpoint adds: planes through it that touch the visible outline touch the shape.
-  int outline_planes = 24;
+  int outline_rays = 96;
   double outline_weight = 1.0;      // of their mean squared distance
-  double outline_noise_m = 0.0006;  // scale of their Cauchy weights
+  double outline_noise_m = 0.0006;  // scale of their Cauchy weights where the shape extends beyond
+  double outline_outside_m = 0.003;  // where it falls short
+  bool cut_hypotheses = true;
+  int cut_iterations = 8;
   double pixel_rad = 1.0 / 525;     // the outline runs half a pixel outside the outermost points
   double table_margin_m = 0.015;    // outline this near the table is the table's doing
 };

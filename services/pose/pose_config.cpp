@@ -21,9 +21,12 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("support_noise_m", c.support_noise_m, 1e-5, 1);
   table.Get("unseen_foot_m", c.unseen_foot_m, 0, 10);
   table.Get("tilt_weight", c.tilt_weight, 0, 1e6);
-  table.Get("outline_planes", c.outline_planes, 0, 1000);
+  table.Get("outline_rays", c.outline_rays, 0, 1000);
   table.Get("outline_weight", c.outline_weight, 0, 1e6);
   table.Get("outline_noise_m", c.outline_noise_m, 1e-5, 0.1);
+  table.Get("outline_outside_m", c.outline_outside_m, 1e-5, 0.1);
+  table.Get("cut_hypotheses", c.cut_hypotheses);
+  table.Get("cut_iterations", c.cut_iterations, 1, 1000);
   table.Get("pixel_rad", c.pixel_rad, 0, 0.1);
   table.Get("table_margin_m", c.table_margin_m, 0, 1);
 }
