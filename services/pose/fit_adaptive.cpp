@@ -3,9 +3,10 @@
 #include "services/pose/fit_adaptive.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "services/pose/distance_kernel.h"
+#include "services/pose/adaptive_problem.h"
 #include "services/pose/silhouette.h"
 #include "services/pose/starts.h"
 #include "services/pose/surface.h"
@@ -14,110 +15,6 @@ namespace beckon::pose {
 namespace {
 
 constexpr int kPointsForSize = 300;
-
-// s^2 log(1 + (r/s)^2) and its weight (Cauchy; Zhang 1997, table 1).
-struct Robust {
-  double cost, weight;
-};
-Robust Cauchy(double residual, double scale) {
-  const double x = residual * residual / (scale * scale);
-  return {scale * scale * std::log(1 + x), 1 / (1 + x)};
-}
-
-// What does not change between the stages of one fit.
-struct Scene {
-  std::optional<Plane> table;
-  Eigen::Vector3d viewpoint;
-};
-
-class AdaptiveProblem : public FitProblem {
- public:
-  /// `upright` is the axis of the shape that is to be vertical.
-  AdaptiveProblem(const PointBlock& points, const PointBlock& rays, const Scene& scene, int upright,
-                  const AdaptiveConfig& config)
-      : points_(points), rays_(rays), scene_(scene), upright_(upright), config_(config) {}
-
-  NormalEquations Linearise(const Superquadric& shape) const override {
-    NormalEquations eq;
-    DistanceSum sum = SumDistances(shape, points_, {config_.noise_m, config_.noise_m});
-    AddKernel(shape, sum, 1.0, eq);
-    if (rays_.size > 0) {
-      PointBlock deepest;
-      FindDeepest(shape, scene_.viewpoint, rays_, deepest);
-      sum = SumDistances(shape, deepest, {config_.outline_noise_m, config_.outline_outside_m});
-      AddKernel(shape, sum, config_.outline_weight, eq);
-    }
-    if (scene_.table) {
-      AddSupport(shape, eq);
-      AddTilt(shape, eq);
-    }
-    eq.cost += config_.volume_prior_m2 * shape.semi_axes.array().log().sum();
-    eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
-    return eq;
-  }
-
- private:
-  // The kernel's derivatives by rotation and translation are in O.
-  static void AddKernel(const Superquadric& shape, const DistanceSum& sum, double weight,
-                        NormalEquations& eq) {
-    Eigen::Matrix<double, kKernelParameters, kKernelParameters> turn;
-    turn.setIdentity();
-    turn.block<3, 3>(kRotation, kRotation) = shape.X_FO.linear();
-    turn.block<3, 3>(kTranslation, kTranslation) = shape.X_FO.linear();
-    eq.cost += weight * sum.cost;
-    eq.gradient.head<kKernelParameters>() += weight * (turn * sum.gradient);
-    eq.hessian.topLeftCorner<kKernelParameters, kKernelParameters>() +=
-        weight * (turn * sum.hessian * turn.transpose());
-  }
-
-  // max of n·p over the shape, with its derivatives by the parameters.
-  static double Reach(const Superquadric& shape, const Eigen::Vector3d& n_F,
-                      ParameterVector& jacobian) {
-    const Eigen::Matrix3d& R = shape.X_FO.linear();
-    const SupportDerivatives d = DifferentiateSupport(shape, R.transpose() * n_F);
-    jacobian.setZero();
-    jacobian.segment<3>(kLogAxes) = d.log_semi_axes;
-    jacobian.segment<2>(kEpsilon) = d.epsilon;
-    jacobian.segment<3>(kRotation) = (R * d.point).cross(n_F);
-    jacobian.segment<3>(kTranslation) = n_F;
-    return n_F.dot(shape.X_FO.translation()) + d.h;
-  }
-
-  // The lowest point lies on the table: max over the shape of -n·p equals the plane's offset.
-  void AddSupport(const Superquadric& shape, NormalEquations& eq) const {
-    ParameterVector jacobian;
-    const double below = Reach(shape, -scene_.table->normal, jacobian) - scene_.table->offset_m;
-    const Robust robust = Cauchy(below, config_.support_noise_m);
-    eq.Add(below, jacobian, config_.support_weight * robust.weight);
-    eq.cost += config_.support_weight * robust.cost;
-  }
-
-  // The upright axis has no horizontal components.
-  void AddTilt(const Superquadric& shape, NormalEquations& eq) const {
-    const Eigen::Vector3d axis = shape.X_FO.linear().col(upright_);
-    const Eigen::Vector3d right = scene_.table->normal.unitOrthogonal();
-    for (const Eigen::Vector3d& h : {right, Eigen::Vector3d(scene_.table->normal.cross(right))}) {
-      ParameterVector jacobian = ParameterVector::Zero();
-      jacobian.segment<3>(kRotation) = axis.cross(h);
-      const double lean = h.dot(axis);
-      eq.Add(lean, jacobian, config_.tilt_weight);
-      eq.cost += config_.tilt_weight * lean * lean;
-    }
-  }
-
-  const PointBlock& points_;
-  const PointBlock& rays_;
-  const Scene& scene_;
-  const int upright_;
-  const AdaptiveConfig& config_;
-};
-
-// The axis of the shape nearest to the table's normal; 2 where there is no table.
-int UprightAxis(const Superquadric& shape, const std::optional<Plane>& table) {
-  int axis = 2;
-  if (table) (shape.X_FO.linear().transpose() * table->normal).cwiseAbs().maxCoeff(&axis);
-  return axis;
-}
 
 // About `count` points evenly spread over the surface: the centroids of a voxel grid of fitting
 // size, which is found on a part of the points.
@@ -142,9 +39,38 @@ PointBlock Block(const PointList& points, int most) {
   return block;
 }
 
+// The outline as it is taken to be: whole, or cut off along a straight piece.
+struct View {
+  PointBlock rays;
+  Cut cut;
+  double charge = 0;  // m^2, for what is not in the cost: the cut's improbability, its rays' raggedness
+};
+
+View CutAt(const Silhouette& silhouette, const Straight& straight, double distance,
+           const AdaptiveConfig& config) {
+  View view{silhouette.rays_F, {straight.normal_F}, config.cut_nats * config.nat_m2};
+  const double width = straight.width_rad * distance;
+  view.cut.beyond_m = config.cut_beyond * width;
+  view.cut.sigma_m = std::max(config.cut_sigma * width, 1e-3);
+  const double ragged = straight.mean_square_rad * distance * distance;
+  for (int i : straight.rays) {
+    float& weight = view.rays.weight[static_cast<size_t>(i)];
+    const double scale2 = config.outline_noise_m * config.outline_noise_m;
+    view.charge += static_cast<double>(weight) * config.outline_weight * scale2 * std::log1p(ragged / scale2);
+    weight = 0;
+  }
+  return view;
+}
+
+struct Candidate {
+  LmResult result;
+  size_t view;
+  double cost;
+};
+
 // Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
 // foot is hidden behind another object, or it stands on one, and how far down it goes is not known.
-bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Scene& scene,
+bool FootIsUnseen(const Superquadric& shape, const PointList& points, const TableTopScene& scene,
                   double gap_m) {
   constexpr int kSamples = 150;
   constexpr double kGrazing = 0.14;  // sine of the angle below which cameras see little
@@ -172,7 +98,7 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   const std::vector<Superquadric> starts = Starts(spread, table_F);
   const double reach = starts[0].semi_axes.maxCoeff();
   const PointBlock fine = Block(spread, kBlockSize), coarse = Block(spread, config.coarse_points);
-  const Scene scene{table_F, viewpoint_F};
+  const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
   const Silhouette silhouette =
       TraceSilhouette(points_F, {}, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});
@@ -183,50 +109,52 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   bounds.max_epsilon = config.max_epsilon;
 
   MethodOutcome outcome;
-  LmOptions options{config.coarse_iterations, 1e-3};
-  std::vector<Superquadric> fits;
-  std::vector<std::pair<double, size_t>> order;
-  const auto judge = [&](const Superquadric& shape) {
-    const AdaptiveProblem whole(coarse, silhouette.rays_F, scene, UprightAxis(shape, table_F), config);
-    order.emplace_back(whole.Linearise(shape).cost, fits.size());
-    fits.push_back(shape);
-  };
-  for (const Superquadric& start : starts) {
-    const AdaptiveProblem problem(coarse, silhouette.rays_F, scene, UprightAxis(start, table_F), config);
-    const LmResult fit = Minimise(problem, start, bounds, options);
-    outcome.iterations.push_back(fit.iterations);
-    judge(fit.shape);
-  }
-  std::sort(order.begin(), order.end());
+  const Eigen::Vector3d middle = spread[spread.size() / 2];
+  const double distance = (middle - viewpoint_F).norm();
+  std::vector<View> views{{silhouette.rays_F, {}, 0}};
   if (config.cut_hypotheses) {
-    const size_t bases[2] = {order[0].second, order[1].second};
-    for (const std::vector<int>& straight : silhouette.straights) {
-      PointBlock rays = silhouette.rays_F;
-      for (int i : straight) rays.weight[static_cast<size_t>(i)] = 0;
-      for (size_t base : bases) {
-        const AdaptiveProblem problem(coarse, rays, scene, UprightAxis(fits[base], table_F), config);
-        const LmResult fit = Minimise(problem, fits[base], bounds, {config.cut_iterations, 1e-3});
-        outcome.iterations.push_back(fit.iterations);
-        judge(fit.shape);
-      }
-    }
-    std::sort(order.begin(), order.end());
+    for (const Straight& s : silhouette.straights) views.push_back(CutAt(silhouette, s, distance, config));
   }
+  LmOptions options{config.coarse_iterations, 1e-3};
+  std::vector<Candidate> candidates;
+  const auto fit = [&](const PointBlock& points, size_t view, const Superquadric& start) {
+    const AdaptiveProblem problem(points, views[view].rays, scene, UprightAxis(start, table_F), config,
+                                  views[view].cut);
+    const LmResult result = Minimise(problem, start, bounds, options);
+    outcome.iterations.push_back(result.iterations);
+    return Candidate{result, view,
+                     problem.CostOf(result.shape).of_what_is_seen() + views[view].charge};
+  };
+  const auto cheaper = [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; };
+  for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start));
+  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
+  options.max_iterations = config.cut_iterations;
+  const std::array bases{candidates[0].result.shape, candidates[1].result.shape};
+  for (size_t view = 1; view < views.size(); ++view) {
+    for (const Superquadric& base : bases) candidates.push_back(fit(coarse, view, base));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
 
   options = {config.fine_iterations, 1e-4};
-  std::vector<LmResult> best;
-  for (int i = 0; i < 2; ++i) {
-    const Superquadric& start = fits[order[static_cast<size_t>(i)].second];
-    const AdaptiveProblem problem(fine, silhouette.rays_F, scene, UprightAxis(start, table_F), config);
-    best.push_back(Minimise(problem, start, bounds, options));
-    outcome.iterations.push_back(best.back().iterations);
+  std::vector<Candidate> best;
+  for (size_t i = 0; i < 2; ++i) best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape));
+  std::stable_sort(best.begin(), best.end(), cheaper);
+  if (getenv("BDBG")) {  // DEBUG
+    const auto show = [&](const char* w, const Candidate& c, const PointBlock& pts) {
+      const AdaptiveProblem problem(pts, views[c.view].rays, scene, UprightAxis(c.result.shape, table_F), config, views[c.view].cut);
+      const AdaptiveCost k = problem.CostOf(c.result.shape);
+      const auto& s = c.result.shape;
+      printf("%s view %zu cost %.3f charge %.3f pts %.3f out %.3f sup %.3f tilt %.3f cut %.3f vol %.3f a %.3f %.3f %.3f e %.2f %.2f\n", w, c.view, c.cost*1e6, views[c.view].charge*1e6, k.points*1e6,k.outline*1e6,k.support*1e6,k.tilt*1e6,k.cut*1e6,k.volume*1e6,s.semi_axes[0],s.semi_axes[1],s.semi_axes[2],s.epsilon[0],s.epsilon[1]);
+    };
+    for (size_t v=1; v<views.size(); ++v) { const auto& s=silhouette.straights[v-1]; printf("view %zu: rays %zu of %d normal %.2f %.2f width %.3f beyond %.3f rms px %.2f\n", v, s.rays.size(), silhouette.rays_F.size, s.normal_F[0], s.normal_F[1], s.width_rad*distance, views[v].cut.beyond_m, std::sqrt(s.mean_square_rad)*525); }
+    for (auto& c : candidates) show(" c", c, coarse);
+    for (auto& c : best) show(" B", c, fine);
   }
-  if (best[1].at_minimum.cost < best[0].at_minimum.cost) std::swap(best[0], best[1]);
-  outcome.shape = best[0].shape;
-  outcome.converged = best[0].converged;
-  const bool other_shape = MeanRadialDistance(best[1].shape, spread) <
-                               kAboutAsGood * MeanRadialDistance(best[0].shape, spread) &&
-                           ShapeDifference(best[0].shape, best[1].shape) > kOtherShape_m;
+  outcome.shape = best[0].result.shape;
+  outcome.converged = best[0].result.converged;
+  const bool other_shape = MeanRadialDistance(best[1].result.shape, spread) <
+                               kAboutAsGood * MeanRadialDistance(best[0].result.shape, spread) &&
+                           ShapeDifference(best[0].result.shape, best[1].result.shape) > kOtherShape_m;
   outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, spread, scene, config.unseen_foot_m);
   return outcome;
 }

@@ -33,7 +33,13 @@ struct AdaptiveConfig {
   double outline_weight = 1.0;      // of their mean squared distance
   double outline_noise_m = 0.0006;  // scale of their Cauchy weights where the shape extends beyond
   double outline_outside_m = 0.003;  // where it falls short
+  // Outlines that may be cut off along a straight line.
   bool cut_hypotheses = true;
+  double nat_m2 = 6e-9;     // what a factor of e in probability weighs
+  double cut_pull_m2 = 1e-7; // weight of how far it goes on
+  double cut_nats = 10;     // how improbable a cut is
+  double cut_beyond = 0.5; // an object goes on by this part of what is seen of it,
+  double cut_sigma = 0.2;  // give or take
   int cut_iterations = 8;
   double pixel_rad = 1.0 / 525;     // the outline runs half a pixel outside the outermost points
   double table_margin_m = 0.015;    // outline this near the table is the table's doing

@@ -26,6 +26,11 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("outline_noise_m", c.outline_noise_m, 1e-5, 0.1);
   table.Get("outline_outside_m", c.outline_outside_m, 1e-5, 0.1);
   table.Get("cut_hypotheses", c.cut_hypotheses);
+  table.Get("nat_m2", c.nat_m2, 0, 1);
+  table.Get("cut_pull_m2", c.cut_pull_m2, 0, 1);
+  table.Get("cut_nats", c.cut_nats, 0, 1e6);
+  table.Get("cut_beyond", c.cut_beyond, 0, 10);
+  table.Get("cut_sigma", c.cut_sigma, 1e-3, 10);
   table.Get("cut_iterations", c.cut_iterations, 1, 1000);
   table.Get("pixel_rad", c.pixel_rad, 0, 0.1);
   table.Get("table_margin_m", c.table_margin_m, 0, 1);

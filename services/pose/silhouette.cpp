@@ -128,8 +128,10 @@ std::vector<Chord> StraightChords(const std::vector<Eigen::Vector2d>& hull, doub
   return chords;
 }
 
-std::vector<std::vector<int>> FindStraights(const std::vector<OutlinePoint>& outline,
-                                            const std::vector<Eigen::Vector2d>& hull) {
+// `to_F` turns a direction of the image plane, in pixels and their focal length, to F.
+std::vector<Straight> FindStraights(const std::vector<OutlinePoint>& outline,
+                                    const std::vector<Eigen::Vector2d>& hull, double pixel_rad,
+                                    const Eigen::Matrix3d& to_F) {
   constexpr double kTolerance_px = 1.2, kNear_px = 2.0;
   constexpr size_t kMostStraights = 6;
   constexpr double kShortest = 0.3;  // of the longest distance in the outline
@@ -137,25 +139,39 @@ std::vector<std::vector<int>> FindStraights(const std::vector<OutlinePoint>& out
   for (const auto& p : hull) {
     for (const auto& q : hull) diameter = std::max(diameter, (p - q).norm());
   }
-  std::vector<std::vector<int>> straights;
+  std::vector<Straight> straights;
   std::vector<bool> taken(outline.size(), false);
   for (const Chord& chord : StraightChords(hull, kTolerance_px)) {
     if (chord.length < kShortest * diameter || straights.size() == kMostStraights) break;
     const Eigen::Vector2d along = (chord.to - chord.from) / chord.length;
-    std::vector<int> rays;
+    const Eigen::Vector2d outward(along.y(), -along.x());  // the hull runs counter-clockwise
+    Straight straight;
     int fresh = 0;
+    double sum = 0, squares = 0;
     for (size_t i = 0; i < outline.size(); ++i) {
       const Eigen::Vector2d q = outline[i].image - chord.from;
       const double s = along.dot(q);
       if (std::abs(Cross(along, q)) > kNear_px || s < -kNear_px || s > chord.length + kNear_px) {
         continue;
       }
-      rays.push_back(static_cast<int>(i));
+      straight.rays.push_back(static_cast<int>(i));
       fresh += taken[i] ? 0 : 1;
+      const double deviation = outward.dot(q);
+      sum += deviation;
+      squares += deviation * deviation;
     }
-    if (2 * fresh < static_cast<int>(rays.size()) || rays.size() * 12 < outline.size()) continue;
-    for (int i : rays) taken[static_cast<size_t>(i)] = true;
-    straights.push_back(std::move(rays));
+    const double n = static_cast<double>(straight.rays.size());
+    if (2 * fresh < static_cast<int>(n) || n * 12 < static_cast<double>(outline.size())) continue;
+    for (int i : straight.rays) taken[static_cast<size_t>(i)] = true;
+    straight.mean_square_rad =
+        std::max(squares / n - (sum / n) * (sum / n), 0.0) * pixel_rad * pixel_rad;
+    double lowest = 0;
+    for (const auto& p : hull) lowest = std::min(lowest, outward.dot(p - chord.from));
+    straight.width_rad = -lowest * pixel_rad;
+    // n·(u, v, 1) = outward·(q - from) in units of the focal length.
+    const double offset = (outward.dot(chord.from) + 0.5) * pixel_rad;
+    straight.normal_F = (to_F * Eigen::Vector3d(outward.x(), outward.y(), -offset)).normalized();
+    straights.push_back(std::move(straight));
   }
   return straights;
 }
@@ -222,7 +238,7 @@ Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<
                           1.0 / static_cast<double>(chosen.size()));
   }
   silhouette.rays_F.Pad();
-  silhouette.straights = FindStraights(chosen, ConvexHull(std::move(border)));
+  silhouette.straights = FindStraights(chosen, ConvexHull(std::move(border)), pixel_rad, axes);
   return silhouette;
 }
 

@@ -19,11 +19,17 @@ struct SilhouetteConfig {
   double table_margin_m = 0.015;  // outline this near the table is the table's doing
 };
 
+/// A straight piece of the outline: the edge of a box, or where something cuts the object off.
+struct Straight {
+  std::vector<int> rays;      // indices
+  Eigen::Vector3d normal_F;   // of the plane through the viewpoint and the piece; unit, outward
+  double mean_square_rad = 0; // of the rays about that plane
+  double width_rad = 0;       // of the object as seen, across the piece
+};
+
 struct Silhouette {
   PointBlock rays_F;  // unit directions from the viewpoint; weights sum to 1
-  // Straight pieces of the outline, longest first: indices of rays. A box has such edges, and so has what
-  // was cut off.
-  std::vector<std::vector<int>> straights;
+  std::vector<Straight> straights;  // longest first
 };
 
 /// The outline of `points_F` as seen from the viewpoint. Points whose neighbourhood is known (`rim_F`, where
