@@ -64,7 +64,7 @@ AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq
     cost.outline = AddKernel(
         shape,
         SumDistances(shape, deepest, {config_.outline_noise_m, config_.outline_outside_m}),
-        config_.outline_weight, eq);
+        outline_share_ * config_.outline_weight, eq);
   }
   if (scene_.table) {
     cost.support = AddSupport(shape, eq);

@@ -27,7 +27,6 @@ struct Cut {
 /// The terms of the cost, m^2; each is there to be looked at.
 struct AdaptiveCost {
   double points = 0, outline = 0, support = 0, tilt = 0, volume = 0, cut = 0;
-  double of_what_is_seen() const { return points + outline + support + tilt + volume; }
   double total() const { return points + outline + support + tilt + volume + cut; }
 };
 
@@ -41,6 +40,8 @@ class AdaptiveProblem : public FitProblem {
 
   NormalEquations Linearise(const Superquadric& shape) const override;
   AdaptiveCost CostOf(const Superquadric& shape) const;
+  /// Multiplies the outline's weight.
+  void set_outline_share(double share) { outline_share_ = share; }
 
  private:
   AdaptiveCost Add(const Superquadric& shape, NormalEquations& eq) const;
@@ -54,6 +55,7 @@ class AdaptiveProblem : public FitProblem {
   const int upright_;
   const AdaptiveConfig& config_;
   const Cut cut_;
+  double outline_share_ = 1;
 };
 
 /// The axis of the shape nearest to the table's normal; 2 where there is no table.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "services/pose/adaptive_problem.h"
+#include "services/pose/even_spread.h"
 #include "services/pose/silhouette.h"
 #include "services/pose/starts.h"
 #include "services/pose/surface.h"
@@ -14,27 +15,16 @@
 namespace beckon::pose {
 namespace {
 
-constexpr int kPointsForSize = 300;
-
-// About `count` points evenly spread over the surface: the centroids of a voxel grid of fitting
-// size, which is found on a part of the points.
-PointList EvenlySpread(const PointList& points, int count, double size_m) {
-  if (points.size() <= static_cast<size_t>(count)) return points;
-  double voxel_m = size_m / std::sqrt(static_cast<double>(count));
-  const PointList part = Thinned(points, 4 * count);
-  for (int tries = 0; tries < 3; ++tries) {
-    const double ratio = static_cast<double>(VoxelCentroids(part, voxel_m).size()) / count;
-    if (ratio > 0.8 && ratio < 1.25) break;
-    voxel_m *= std::sqrt(ratio);  // points lie on a surface
-  }
-  return VoxelCentroids(points, voxel_m);
-}
-
-// Every so manieth of the points, at most `most`, of equal weight, 1 together.
-PointBlock Block(const PointList& points, int most) {
+// Every so manieth of the points, at most `most`; the weights sum to 1.
+PointBlock Block(const SpreadPoints& spread, int most) {
+  const size_t limit = static_cast<size_t>(std::min(most, kBlockSize));
+  const size_t step = std::max<size_t>((spread.points.size() + limit - 1) / limit, 1);
+  double sum = 0;
+  for (size_t i = 0; i < spread.points.size(); i += step) sum += spread.weights[i];
   PointBlock block;
-  const PointList part = Thinned(points, std::min(most, kBlockSize));
-  for (const auto& p : part) block.Add(p, 1.0 / static_cast<double>(part.size()));
+  for (size_t i = 0; i < spread.points.size(); i += step) {
+    block.Add(spread.points[i], spread.weights[i] / sum);
+  }
   block.Pad();
   return block;
 }
@@ -43,7 +33,8 @@ PointBlock Block(const PointList& points, int most) {
 struct View {
   PointBlock rays;
   Cut cut;
-  double charge = 0;  // m^2, for what is not in the cost: the cut's improbability, its rays' raggedness
+  double charge = 0;  // m^2, for the cut's improbability
+  double ragged = 0;  // m^2, what the cut's rays cost about their straight line
 };
 
 View CutAt(const Silhouette& silhouette, const Straight& straight, double distance,
@@ -56,7 +47,7 @@ View CutAt(const Silhouette& silhouette, const Straight& straight, double distan
   for (int i : straight.rays) {
     float& weight = view.rays.weight[static_cast<size_t>(i)];
     const double scale2 = config.outline_noise_m * config.outline_noise_m;
-    view.charge += static_cast<double>(weight) * config.outline_weight * scale2 * std::log1p(ragged / scale2);
+    view.ragged += static_cast<double>(weight) * config.outline_weight * scale2 * std::log1p(ragged / scale2);
     weight = 0;
   }
   return view;
@@ -66,6 +57,7 @@ struct Candidate {
   LmResult result;
   size_t view;
   double cost;
+  double outline_share;  // what the outline's weight is to be multiplied by
 };
 
 // Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
@@ -92,12 +84,11 @@ bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Tabl
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
                           const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
-  const double size =
-      ComputePrincipalBox(Thinned(points_F, kPointsForSize)).half_extents.maxCoeff();
-  const PointList spread = EvenlySpread(points_F, config.fine_points, 2 * size);
+  const SpreadPoints weighted = SpreadEvenly(points_F, config.fine_points);
+  const PointList& spread = weighted.points;
   const std::vector<Superquadric> starts = Starts(spread, table_F);
   const double reach = starts[0].semi_axes.maxCoeff();
-  const PointBlock fine = Block(spread, kBlockSize), coarse = Block(spread, config.coarse_points);
+  const PointBlock fine = Block(weighted, kBlockSize), coarse = Block(weighted, config.coarse_points);
   const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
   const Silhouette silhouette =
       TraceSilhouette(points_F, {}, viewpoint_F, table_F,
@@ -117,27 +108,36 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   }
   LmOptions options{config.coarse_iterations, 1e-3};
   std::vector<Candidate> candidates;
-  const auto fit = [&](const PointBlock& points, size_t view, const Superquadric& start) {
-    const AdaptiveProblem problem(points, views[view].rays, scene, UprightAxis(start, table_F), config,
-                                  views[view].cut);
+  const auto fit = [&](const PointBlock& points, size_t view, const Superquadric& start, double share) {
+    AdaptiveProblem problem(points, views[view].rays, scene, UprightAxis(start, table_F), config,
+                            views[view].cut);
+    problem.set_outline_share(share);
     const LmResult result = Minimise(problem, start, bounds, options);
     outcome.iterations.push_back(result.iterations);
+    problem.set_outline_share(1);
+    const AdaptiveCost cost = problem.CostOf(result.shape);
+    const double outline = (cost.outline + views[view].ragged) / config.outline_trust_m2;
     return Candidate{result, view,
-                     problem.CostOf(result.shape).of_what_is_seen() + views[view].charge};
+                     cost.points + cost.support + cost.tilt + cost.volume + views[view].charge +
+                         config.outline_trust_m2 * std::log1p(outline),
+                     1 / (1 + outline)};
   };
   const auto cheaper = [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; };
-  for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start));
+  for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start, 1));
   std::stable_sort(candidates.begin(), candidates.end(), cheaper);
   options.max_iterations = config.cut_iterations;
+  // An outline that no whole shape explains is more likely to be cut.
+  const double trust = std::pow(candidates[0].outline_share, 3);
+  for (View& view : views) view.charge *= trust;
   const std::array bases{candidates[0].result.shape, candidates[1].result.shape};
   for (size_t view = 1; view < views.size(); ++view) {
-    for (const Superquadric& base : bases) candidates.push_back(fit(coarse, view, base));
+    for (const Superquadric& base : bases) candidates.push_back(fit(coarse, view, base, 1));
   }
   std::stable_sort(candidates.begin(), candidates.end(), cheaper);
 
   options = {config.fine_iterations, 1e-4};
   std::vector<Candidate> best;
-  for (size_t i = 0; i < 2; ++i) best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape));
+  for (size_t i = 0; i < 2; ++i) best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape, candidates[i].outline_share));
   std::stable_sort(best.begin(), best.end(), cheaper);
   if (getenv("BDBG")) {  // DEBUG
     const auto show = [&](const char* w, const Candidate& c, const PointBlock& pts) {

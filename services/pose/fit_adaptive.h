@@ -15,7 +15,7 @@ struct AdaptiveConfig {
   int fine_points = 300;
   int coarse_iterations = 6;
   int fine_iterations = 50;
-  double noise_m = 0.003;  // scale of the Cauchy weights of points
+  double noise_m = 0.002;  // scale of the Cauchy weights of points
   double min_semi_axis_m = 0.005;
   // A semi-axis is at most 1 + this times the points' largest half extent.
   double axis_margin = 1.0;
@@ -30,14 +30,15 @@ struct AdaptiveConfig {
   double unseen_foot_m = 0.03;
   // What the viewpoint adds: planes through it that touch the visible outline touch the shape.
   int outline_rays = 96;
-  double outline_weight = 1.0;      // of their mean squared distance
+  double outline_weight = 1.5;      // of their mean squared distance
   double outline_noise_m = 0.0006;  // scale of their Cauchy weights where the shape extends beyond
   double outline_outside_m = 0.003;  // where it falls short
   // Outlines that may be cut off along a straight line.
+  double outline_trust_m2 = 4e-7;
   bool cut_hypotheses = true;
   double nat_m2 = 6e-9;     // what a factor of e in probability weighs
   double cut_pull_m2 = 1e-7; // weight of how far it goes on
-  double cut_nats = 10;     // how improbable a cut is
+  double cut_nats = 400;     // how improbable a cut is
   double cut_beyond = 0.5; // an object goes on by this part of what is seen of it,
   double cut_sigma = 0.2;  // give or take
   int cut_iterations = 8;

@@ -27,6 +27,7 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("outline_outside_m", c.outline_outside_m, 1e-5, 0.1);
   table.Get("cut_hypotheses", c.cut_hypotheses);
   table.Get("nat_m2", c.nat_m2, 0, 1);
+  table.Get("outline_trust_m2", c.outline_trust_m2, 0, 1);
   table.Get("cut_pull_m2", c.cut_pull_m2, 0, 1);
   table.Get("cut_nats", c.cut_nats, 0, 1e6);
   table.Get("cut_beyond", c.cut_beyond, 0, 10);
