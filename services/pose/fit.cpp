@@ -137,7 +137,7 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
 
   const MethodOutcome outcome =
       config.method == Method::kAdaptive
-          ? FitAdaptive(points, input.table_F, input.viewpoint_F, config.adaptive)
+          ? FitAdaptive(points, input.table_F, input.viewpoint_F, input.rim_F, config.adaptive)
           : FitMultiscale(points, config.multiscale);
   result.iterations = outcome.iterations;
   if (!IsFinite(outcome.shape)) {

@@ -83,7 +83,8 @@ bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Tabl
 }  // namespace
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
-                          const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
+                          const Eigen::Vector3d& viewpoint_F, std::span<const RimPoint> rim_F,
+                          const AdaptiveConfig& config) {
   const SpreadPoints weighted = SpreadEvenly(points_F, config.fine_points);
   const PointList& spread = weighted.points;
   const std::vector<Superquadric> starts = Starts(spread, table_F);
@@ -91,7 +92,7 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   const PointBlock fine = Block(weighted, kBlockSize), coarse = Block(weighted, config.coarse_points);
   const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
   const Silhouette silhouette =
-      TraceSilhouette(points_F, {}, viewpoint_F, table_F,
+      TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});
   FitBounds bounds;
   bounds.min_axes.setConstant(config.min_semi_axis_m);
@@ -103,7 +104,10 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   const Eigen::Vector3d middle = spread[spread.size() / 2];
   const double distance = (middle - viewpoint_F).norm();
   std::vector<View> views{{silhouette.rays_F, {}, 0}};
-  if (config.cut_hypotheses) {
+  if (silhouette.cut) {
+    views[0] = CutAt(silhouette, *silhouette.cut, distance, config);
+    views[0].charge = 0;  // nothing improbable: it was seen
+  } else if (config.cut_hypotheses) {
     for (const Straight& s : silhouette.straights) views.push_back(CutAt(silhouette, s, distance, config));
   }
   LmOptions options{config.coarse_iterations, 1e-3};

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "services/base/geometry.h"
+#include "services/base/rim.h"
 #include "services/pose/fit_stage.h"
 
 namespace beckon::pose {
@@ -53,6 +55,7 @@ struct AdaptiveConfig {
 ///   + outline: mean of Cauchy(distance of a tangent plane).
 /// Without a table the starts stand along the principal axes and the table's terms are left out.
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
-                          const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config);
+                          const Eigen::Vector3d& viewpoint_F, std::span<const RimPoint> rim_F,
+                          const AdaptiveConfig& config);
 
 }  // namespace beckon::pose

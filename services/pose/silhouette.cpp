@@ -176,6 +176,71 @@ std::vector<Straight> FindStraights(const std::vector<OutlinePoint>& outline,
   return straights;
 }
 
+// Pixels of the image plane of `axes`; nothing where a point is not in front of the viewpoint.
+std::optional<Eigen::Vector2d> ToImage(const Eigen::Matrix3d& axes, const Eigen::Vector3d& arm_F,
+                                       double pixel_rad) {
+  const Eigen::Vector3d q = axes.transpose() * arm_F;
+  if (q.z() <= 1e-6) return std::nullopt;
+  return Eigen::Vector2d(q.head<2>() / (q.z() * pixel_rad));
+}
+
+// The side that occluders or the image's border take away, where that is a good part of the rim.
+std::optional<Straight> CutOf(std::span<const RimPoint> rim_F,
+                              const std::vector<Eigen::Vector2d>& image, double pixel_rad,
+                              const Eigen::Matrix3d& axes) {
+  constexpr double kLeastPart = 0.1;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), hidden = Eigen::Vector2d::Zero();
+  double n_hidden = 0;
+  for (size_t i = 0; i < image.size(); ++i) {
+    middle += image[i];
+    if (rim_F[i].beyond != Beyond::kNearer && rim_F[i].beyond != Beyond::kImageBorder) continue;
+    hidden += image[i];
+    ++n_hidden;
+  }
+  const double n = static_cast<double>(image.size());
+  if (n_hidden < kLeastPart * n) return std::nullopt;
+  const Eigen::Vector2d outward = hidden / n_hidden - middle / n;
+  if (outward.norm() < 1) return std::nullopt;  // hidden all around
+  const Eigen::Vector2d normal = outward.normalized();
+  double lowest = 1e9;
+  for (const auto& q : image) lowest = std::min(lowest, normal.dot(q));
+  Straight cut;
+  const double offset = normal.dot(hidden) / n_hidden;
+  cut.width_rad = (offset - lowest) * pixel_rad;
+  cut.normal_F = (axes * Eigen::Vector3d(normal.x(), normal.y(), -offset * pixel_rad)).normalized();
+  return cut;
+}
+
+// The silhouette of a rim, whose points run around the object in order.
+Silhouette SilhouetteOfRim(std::span<const RimPoint> rim_F, const Eigen::Vector3d& viewpoint_F,
+                           const std::optional<Plane>& table_F, const Eigen::Matrix3d& axes,
+                           const SilhouetteConfig& config) {
+  Silhouette silhouette;
+  std::vector<Eigen::Vector2d> image;
+  for (const RimPoint& r : rim_F) {
+    const auto q = ToImage(axes, r.point.cast<double>() - viewpoint_F, config.pixel_rad);
+    if (!q) return silhouette;
+    image.push_back(*q);
+  }
+  const size_t n = image.size();
+  double area = 0;
+  for (size_t i = 0; i < n; ++i) area += Cross(image[i], image[(i + 1) % n]);
+  std::vector<Eigen::Vector3d> rays;
+  for (size_t i = 0; i < n && rays.size() < static_cast<size_t>(kBlockSize); ++i) {
+    if (rim_F[i].beyond != Beyond::kFarther) continue;
+    if (table_F && table_F->Distance(rim_F[i].point.cast<double>()) < config.table_margin_m) continue;
+    const Eigen::Vector2d along = image[(i + 1) % n] - image[(i + n - 1) % n];
+    const Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()) * (area > 0 ? 1 : -1);
+    const Eigen::Vector2d q = (image[i] + 0.5 * outward.stableNormalized()) * config.pixel_rad;
+    rays.push_back((axes * Eigen::Vector3d(q.x(), q.y(), 1)).normalized());
+  }
+  // By the length of the rim: where little of it is the object's own, that says little.
+  for (const auto& ray : rays) silhouette.rays_F.Add(ray, 1.0 / static_cast<double>(n));
+  silhouette.rays_F.Pad();
+  silhouette.cut = CutOf(rim_F, image, config.pixel_rad, axes);
+  return silhouette;
+}
+
 }  // namespace
 
 Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<const RimPoint> rim_F,
@@ -187,13 +252,15 @@ Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<
   if (points_F.empty() || config.most_rays <= 0 || sight.norm() < 1e-6) return silhouette;
   const Eigen::Matrix3d axes = ImageAxes(sight.normalized());
 
+  if (!rim_F.empty()) return SilhouetteOfRim(rim_F, viewpoint_F, table_F, axes, config);
+
   std::vector<Eigen::Vector2d> image;
   image.reserve(points_F.size());
   Eigen::Vector2d lo(1e9, 1e9), hi(-1e9, -1e9);
   for (const auto& p : points_F) {
-    const Eigen::Vector3d q = axes.transpose() * (p - viewpoint_F);
-    if (q.z() <= 1e-6) return silhouette;
-    image.push_back(q.head<2>() / (q.z() * config.pixel_rad));
+    const auto q = ToImage(axes, p - viewpoint_F, config.pixel_rad);
+    if (!q) return silhouette;
+    image.push_back(*q);
     lo = lo.cwiseMin(image.back());
     hi = hi.cwiseMax(image.back());
   }

@@ -29,12 +29,16 @@ struct Straight {
 
 struct Silhouette {
   PointBlock rays_F;  // unit directions from the viewpoint; weights sum to 1
-  std::vector<Straight> straights;  // longest first
+  // Where nobody knows what lies beyond the outline: pieces of it that may be cuts, longest first.
+  std::vector<Straight> straights;
+  // Where it is known: the side on which an occluder or the image's border cuts the object off; no rays.
+  std::optional<Straight> cut;
 };
 
-/// The outline of `points_F` as seen from the viewpoint. Points whose neighbourhood is known (`rim_F`, where
-/// not empty) are used where the background lies beyond them; without, the outermost points of each row and
-/// column of a grid of pixels are. Empty where the viewpoint is among the points.
+/// The outline of `points_F` as seen from the viewpoint. Where `rim_F` tells what lies beyond, the rays are
+/// those of rim points with the background beyond them. Without, they are those of the outermost points of
+/// each row and column of a grid of pixels, whatever may lie beyond. Empty where the viewpoint is among the
+/// points.
 Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<const RimPoint> rim_F,
                            const Eigen::Vector3d& viewpoint_F, const std::optional<Plane>& table_F,
                            const SilhouetteConfig& config);
