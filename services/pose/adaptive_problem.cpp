@@ -28,16 +28,9 @@ double Reach(const Superquadric& shape, const Eigen::Vector3d& n_F, ParameterVec
   return n_F.dot(shape.X_FO.translation()) + d.h;
 }
 
-// Adds a sum of the kernel's, whose derivatives by rotation and translation are in O.
-double AddKernel(const Superquadric& shape, const DistanceSum& sum, double weight,
-                 NormalEquations& eq) {
-  Eigen::Matrix<double, kKernelParameters, kKernelParameters> turn;
-  turn.setIdentity();
-  turn.block<3, 3>(kRotation, kRotation) = shape.X_FO.linear();
-  turn.block<3, 3>(kTranslation, kTranslation) = shape.X_FO.linear();
-  eq.gradient.head<kKernelParameters>() += weight * (turn * sum.gradient);
-  eq.hessian.topLeftCorner<kKernelParameters, kKernelParameters>() +=
-      weight * (turn * sum.hessian * turn.transpose());
+double AddKernel(const DistanceSum& sum, double weight, NormalEquations& eq) {
+  eq.gradient.head<kKernelParameters>() += weight * sum.gradient;
+  eq.hessian.topLeftCorner<kKernelParameters, kKernelParameters>() += weight * sum.hessian;
   return weight * sum.cost;
 }
 
@@ -57,12 +50,11 @@ AdaptiveCost AdaptiveProblem::CostOf(const Superquadric& shape) const {
 AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq) const {
   AdaptiveCost cost;
   cost.points = AddKernel(
-      shape, SumDistances(shape, points_, {config_.noise_m, config_.noise_m}), 1, eq);
+      SumDistances(shape, points_, {config_.noise_m, config_.noise_m}), 1, eq);
   if (rays_.size > 0) {
     PointBlock deepest;
-    FindDeepest(shape, scene_.viewpoint, rays_, deepest);
+    FindDeepest(shape, scene_.viewpoint, rays_, search_steps_, deepest);
     cost.outline = AddKernel(
-        shape,
         SumDistances(shape, deepest, {config_.outline_noise_m, config_.outline_outside_m}),
         outline_share_ * config_.outline_weight, eq);
   }

@@ -42,6 +42,8 @@ class AdaptiveProblem : public FitProblem {
   AdaptiveCost CostOf(const Superquadric& shape) const;
   /// Multiplies the outline's weight.
   void set_outline_share(double share) { outline_share_ = share; }
+  /// How closely the point of a ray is found that is deepest in the shape.
+  void set_search_steps(int steps) { search_steps_ = steps; }
 
  private:
   AdaptiveCost Add(const Superquadric& shape, NormalEquations& eq) const;
@@ -56,6 +58,7 @@ class AdaptiveProblem : public FitProblem {
   const AdaptiveConfig& config_;
   const Cut cut_;
   double outline_share_ = 1;
+  int search_steps_ = 14;
 };
 
 /// The axis of the shape nearest to the table's normal; 2 where there is no table.

@@ -15,17 +15,16 @@ constexpr float kTiny = 1e-6f;     // relative size below which a coordinate cou
 constexpr float kMaxShrink = 4.0f;  // keeps the Jacobian bounded near the centre
 constexpr int kEntries = kKernelParameters * (kKernelParameters + 1) / 2;
 
-// A superquadric in single precision, its pose inverted: p_O = R p_F + t.
+// A superquadric in single precision: p_O = R (p_F - centre).
 struct Shape {
-  float R[3][3], t[3];
+  float R[3][3], centre[3];
   float a[3], by_a[3], e1, e2;
 
   explicit Shape(const Superquadric& s) {
     const Eigen::Matrix3d R_OF = s.X_FO.linear().transpose();
-    const Eigen::Vector3d t_OF = -(R_OF * s.X_FO.translation());
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) R[i][k] = static_cast<float>(R_OF(i, k));
-      t[i] = static_cast<float>(t_OF[i]);
+      centre[i] = static_cast<float>(s.X_FO.translation()[i]);
       a[i] = static_cast<float>(s.semi_axes[i]);
       by_a[i] = static_cast<float>(1 / s.semi_axes[i]);
     }
@@ -49,9 +48,13 @@ BECKON_LANES_INLINE Point Turn(const Shape& s, const Point& p) {
           s.R[1][0] * p.x + s.R[1][1] * p.y + s.R[1][2] * p.z,
           s.R[2][0] * p.x + s.R[2][1] * p.y + s.R[2][2] * p.z};
 }
+BECKON_LANES_INLINE Point TurnBack(const Shape& s, const Point& p) {
+  return {s.R[0][0] * p.x + s.R[1][0] * p.y + s.R[2][0] * p.z,
+          s.R[0][1] * p.x + s.R[1][1] * p.y + s.R[2][1] * p.z,
+          s.R[0][2] * p.x + s.R[1][2] * p.y + s.R[2][2] * p.z};
+}
 BECKON_LANES_INLINE Point ToShape(const Shape& s, const Point& p) {
-  const Point q = Turn(s, p);
-  return {q.x + s.t[0], q.y + s.t[1], q.z + s.t[2]};
+  return Turn(s, {p.x - s.centre[0], p.y - s.centre[1], p.z - s.centre[2]});
 }
 
 // log((exp(2u/e) + exp(2v/e))^(e/2)), the weight of u, and the derivative by e (half the weights' entropy).
@@ -120,9 +123,11 @@ struct Sums {
 BECKON_LANES_INLINE void Accumulate(const Shape& s, const PointBlock& points, float inside,
                                     float outside, Sums& sums) {
   for (int i = 0; i < points.size; i += kLanes) {
-    const Point p = ToShape(s, LoadPoint(points, i));
-    const Gauge8 g = GaugeAt(s, p);
+    const Point p_F = LoadPoint(points, i);
+    const Point arm{p_F.x - s.centre[0], p_F.y - s.centre[1], p_F.z - s.centre[2]};
+    const Gauge8 g = GaugeAt(s, Turn(s, arm));
     const Distance8 d = DistanceOf(g);
+    const Point n = TurnBack(s, g.point);
     const Lanes scale2 = d.distance < 0.0f ? All(inside * inside) : All(outside * outside);
     const Lanes x = 1.0f + d.distance * d.distance / scale2;
     const Lanes share = Load(&points.weight[static_cast<size_t>(i)]);
@@ -136,12 +141,12 @@ BECKON_LANES_INLINE void Accumulate(const Shape& s, const PointBlock& points, fl
                                         -scale * g.weight[2],
                                         scale * g.by_e1,
                                         scale * g.by_e2,
-                                        scale * (g.point.y * p.z - g.point.z * p.y),
-                                        scale * (g.point.z * p.x - g.point.x * p.z),
-                                        scale * (g.point.x * p.y - g.point.y * p.x),
-                                        -d.by_slope * g.point.x,
-                                        -d.by_slope * g.point.y,
-                                        -d.by_slope * g.point.z};
+                                        scale * (n.y * arm.z - n.z * arm.y),
+                                        scale * (n.z * arm.x - n.x * arm.z),
+                                        scale * (n.x * arm.y - n.y * arm.x),
+                                        -d.by_slope * n.x,
+                                        -d.by_slope * n.y,
+                                        -d.by_slope * n.z};
     int entry = 0;
     for (int row = 0; row < kKernelParameters; ++row) {
       const Lanes weighted = weight * J[row];
@@ -153,9 +158,8 @@ BECKON_LANES_INLINE void Accumulate(const Shape& s, const PointBlock& points, fl
 
 // Minimum of the gauge along each ray, by golden section within the shape's reach: the gauge is convex.
 BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const PointBlock& rays,
-                                 float reach, PointBlock& points) {
+                                 float reach, int steps, PointBlock& points) {
   constexpr float kGolden = 0.618034f;
-  constexpr int kSteps = 16;  // narrows the bracket to 1/2200
   const Point v{All(viewpoint[0]), All(viewpoint[1]), All(viewpoint[2])};
   const Point v_O = ToShape(s, v);
   for (int i = 0; i < rays.size; i += kLanes) {
@@ -169,7 +173,7 @@ BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const P
     Lanes lo = middle - reach, hi = middle + reach;
     Lanes t1 = hi - kGolden * (hi - lo), t2 = lo + kGolden * (hi - lo);
     Lanes g1 = value(t1), g2 = value(t2);
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < steps; ++step) {
       const IntLanes left = g1 < g2;
       hi = left ? t2 : hi;
       lo = left ? lo : t1;
@@ -186,12 +190,6 @@ BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const P
     Store(&points.x[k], v.x + t * d_F.x);
     Store(&points.y[k], v.y + t * d_F.y);
     Store(&points.z[k], v.z + t * d_F.z);
-  }
-}
-
-BECKON_LANES_INLINE void Distances(const Shape& s, const PointBlock& points, float* out) {
-  for (int i = 0; i < points.size; i += kLanes) {
-    Store(out + i, DistanceOf(GaugeAt(s, ToShape(s, LoadPoint(points, i)))).distance);
   }
 }
 
@@ -227,9 +225,8 @@ BECKON_KERNEL(Accumulate,
               (s, points, inside, outside, sums))
 BECKON_KERNEL(Deepest,
               (const Shape& s, const float* viewpoint, const PointBlock& rays, float reach,
-               PointBlock& points),
-              (s, viewpoint, rays, reach, points))
-BECKON_KERNEL(Distances, (const Shape& s, const PointBlock& points, float* out), (s, points, out))
+               int steps, PointBlock& points),
+              (s, viewpoint, rays, reach, steps, points))
 BECKON_KERNEL(RadialDistances, (const Shape& s, const PointBlock& points, Lanes& sum),
               (s, points, sum))
 
@@ -276,17 +273,12 @@ DistanceSum SumDistances(const Superquadric& shape, const PointBlock& points_F, 
 }
 
 void FindDeepest(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
-                 const PointBlock& rays_F, PointBlock& points_F) {
+                 const PointBlock& rays_F, int steps, PointBlock& points_F) {
   const Eigen::Vector3f viewpoint = viewpoint_F.cast<float>();
   points_F.size = rays_F.size;
   points_F.weight = rays_F.weight;
   RunDeepest(Shape(shape), viewpoint.data(), rays_F, static_cast<float>(shape.semi_axes.norm()),
-             points_F);
-}
-
-void ComputeDistances(const Superquadric& shape, const PointBlock& points_F,
-                      std::array<float, kBlockSize>& distances_m) {
-  RunDistances(Shape(shape), points_F, distances_m.data());
+             steps, points_F);
 }
 
 double SumRadialDistances(const Superquadric& shape, const PointBlock& points_F) {

@@ -35,7 +35,7 @@ struct CauchyLoss {
   double inside_m, outside_m;
 };
 
-/// Order of the parameters: log a1 a2 a3, e1 e2, rotation vector and translation in O.
+/// Order of the parameters: log a1 a2 a3, e1 e2, rotation vector and translation in F.
 inline constexpr int kKernelParameters = 11;
 struct DistanceSum {
   double cost = 0;                                                                      // m^2
@@ -50,14 +50,11 @@ DistanceSum SumDistances(const Superquadric& shape, const PointBlock& points_F, 
 /// Moves each of `points_F` along its ray from `viewpoint_F` in `rays_F` to where the ray is deepest inside
 /// the shape, or passes it closest: the minimum of the gauge. A ray that grazes the shape has a distance of 0
 /// there, and, as the derivative along the ray vanishes, the point may be held fixed when differentiating.
+/// Every of `steps` narrows the place down to 0.62 of what it was, from twice the shape's reach.
 void FindDeepest(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
-                 const PointBlock& rays_F, PointBlock& points_F);
+                 const PointBlock& rays_F, int steps, PointBlock& points_F);
 
-/// Signed first-order distances, m.
-void ComputeDistances(const Superquadric& shape, const PointBlock& points_F,
-                      std::array<float, kBlockSize>& distances_m);
-
-/// Mean over the points of weight * |p| |1 - 1/g|, the radial distance, m.
+/// Sum over the points of weight * |p| |1 - 1/g|, the radial distance, m.
 double SumRadialDistances(const Superquadric& shape, const PointBlock& points_F);
 
 }  // namespace beckon::pose

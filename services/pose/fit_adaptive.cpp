@@ -32,6 +32,7 @@ PointBlock Block(const SpreadPoints& spread, int most) {
 // The outline as it is taken to be: whole, or cut off along a straight piece.
 struct View {
   PointBlock rays;
+  PointBlock few_rays;  // for coarse fits
   Cut cut;
   double charge = 0;  // m^2, for the cut's improbability
   double ragged = 0;  // m^2, what the cut's rays cost about their straight line
@@ -39,7 +40,7 @@ struct View {
 
 View CutAt(const Silhouette& silhouette, const Straight& straight, double distance,
            const AdaptiveConfig& config) {
-  View view{silhouette.rays_F, {straight.normal_F}, config.cut_nats * config.nat_m2};
+  View view{silhouette.rays_F, {}, {straight.normal_F}, config.cut_nats * config.nat_m2};
   const double width = straight.width_rad * distance;
   view.cut.beyond_m = config.cut_beyond * width;
   view.cut.sigma_m = std::max(config.cut_sigma * width, 1e-3);
@@ -51,6 +52,13 @@ View CutAt(const Silhouette& silhouette, const Straight& straight, double distan
     weight = 0;
   }
   return view;
+}
+
+PointBlock EveryThird(const PointBlock& block) {
+  PointBlock third;
+  for (int i = 0; i < block.size; i += 3) third.Add(block.at(i), 3.0 * static_cast<double>(block.weight[static_cast<size_t>(i)]));
+  third.Pad();
+  return third;
 }
 
 struct Candidate {
@@ -103,19 +111,22 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   MethodOutcome outcome;
   const Eigen::Vector3d middle = spread[spread.size() / 2];
   const double distance = (middle - viewpoint_F).norm();
-  std::vector<View> views{{silhouette.rays_F, {}, 0}};
+  std::vector<View> views{{silhouette.rays_F, {}, {}, 0}};
   if (silhouette.cut) {
     views[0] = CutAt(silhouette, *silhouette.cut, distance, config);
     views[0].charge = 0;  // nothing improbable: it was seen
   } else if (config.cut_hypotheses) {
     for (const Straight& s : silhouette.straights) views.push_back(CutAt(silhouette, s, distance, config));
   }
+  for (View& view : views) view.few_rays = EveryThird(view.rays);
   LmOptions options{config.coarse_iterations, 1e-3};
   std::vector<Candidate> candidates;
   const auto fit = [&](const PointBlock& points, size_t view, const Superquadric& start, double share) {
-    AdaptiveProblem problem(points, views[view].rays, scene, UprightAxis(start, table_F), config,
+    const bool is_coarse = &points == &coarse;
+    AdaptiveProblem problem(points, is_coarse ? views[view].few_rays : views[view].rays, scene, UprightAxis(start, table_F), config,
                             views[view].cut);
     problem.set_outline_share(share);
+    problem.set_search_steps(is_coarse ? 9 : 13);
     const LmResult result = Minimise(problem, start, bounds, options);
     outcome.iterations.push_back(result.iterations);
     problem.set_outline_share(1);
