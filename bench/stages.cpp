@@ -115,12 +115,16 @@ void Perceive(const RgbdImage& image, const perception::Categoriser& categoriser
 
 void FitPoses(const msg::Scene& scene, Table& table) {
   const Stopwatch all;
+  std::vector<pose::FitInput> inputs;
   for (const auto& object : scene.objects) {
-    pose::FitInput input;
+    pose::FitInput& input = inputs.emplace_back();
     input.points_F = object.points_C;
+    input.rim_F = object.rim_C;
     const Eigen::Vector3d up_C = scene.X_WC.linear().row(2);
     input.table_F = Plane{.normal = up_C, .offset_m = scene.X_WC.translation().z()};
-    table.Time("pose: fit and grasps, an object", [&] { return pose::EstimateObject(input, {}); });
+  }
+  for (const auto& estimate : pose::EstimateScene(inputs, {}, [&] { return all.Milliseconds(); })) {
+    table.Add("pose: fit and grasps, an object", estimate.time_ms);
   }
   table.Add("pose: all objects", all.Milliseconds());
 }

@@ -10,12 +10,17 @@
 
 #include "services/base/geometry.h"
 #include "services/base/rgbd.h"
+#include "services/base/rim.h"
 #include "services/base/utime.h"
 
 namespace beckon::msg {
 
 /// Most objects a scene may hold.
 inline constexpr int kMaxObjects = 64;
+/// Most grasps, other shapes and parts that are told of an object.
+inline constexpr int kMaxGrasps = 16;
+inline constexpr int kMaxAlternatives = 4;
+inline constexpr int kMaxParts = 8;
 /// A control message fits one datagram.
 inline constexpr size_t kMaxDatagram = 60'000;
 /// Category of an object that fits none.
@@ -54,6 +59,7 @@ struct SceneObject {
   Eigen::Vector3d extent_W = Eigen::Vector3d::Zero();
   int n_points = 0;
   std::vector<Eigen::Vector3f> points_C;  // quantised to 0.1 mm on the wire, at most 4096
+  std::vector<RimPoint> rim_C;            // quantised likewise, at most kMaxRim
   std::vector<std::array<int16_t, 2>> outline_px;
 };
 
@@ -64,6 +70,7 @@ struct Scene {
   std::string source;
   int width = 0;
   int height = 0;
+  Intrinsics intrinsics;
   bool has_table = false;
   Pose X_WC = Pose::Identity();
   std::vector<Eigen::Vector2d> table_W;
@@ -78,6 +85,13 @@ struct Grasp {
   float score = 0;
 };
 
+struct SuperquadricShape {
+  Pose X_WO = Pose::Identity();
+  std::array<double, 3> semi_axes{};  // m
+  std::array<double, 2> epsilon{1, 1};
+  std::array<double, 2> taper{};
+};
+
 struct ObjectPose {
   int object_id = 0;
   Pose X_WO = Pose::Identity();
@@ -89,6 +103,8 @@ struct ObjectPose {
   bool ambiguous = false;
   std::string reason;
   Eigen::Matrix<float, 6, 6> covariance = Eigen::Matrix<float, 6, 6>::Zero();
+  std::vector<SuperquadricShape> alternatives;  // likeliest first
+  std::vector<SuperquadricShape> parts;         // none, or at least two
   std::vector<Grasp> grasps;
   float fit_ms = 0;
 };

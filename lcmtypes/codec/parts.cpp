@@ -1,6 +1,9 @@
 #include "lcmtypes/codec/parts.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace beckon::codec {
 
@@ -102,11 +105,49 @@ msg::ObjectRef FromWire(const object_ref_t& wire) {
   return {.object_id = wire.object_id, .category = wire.category, .instance = wire.instance};
 }
 
+constexpr size_t kBytesOfShape = (3 + 4 + 3 + 2 + 2) * 8;
+
+static Status CheckShape(const Pose& X_WO, std::span<const double> semi_axes,
+                         std::span<const double> epsilon, std::span<const double> taper) {
+  Rules rules("superquadric");
+  rules.Require(Sane(X_WO), "X_WO is not a pose");
+  for (double a : semi_axes) rules.Range(a, "semi-axis", 1e-6, 100);
+  for (double e : epsilon) rules.Range(e, "epsilon", 0.02, 2);
+  for (double k : taper) rules.Range(k, "taper", -1, 1);
+  return rules;
+}
+
+static superquadric_t ToWire(const msg::SuperquadricShape& shape) {
+  superquadric_t wire{};
+  PoseToArrays(shape.X_WO, wire.X_WO_position, wire.X_WO_rotation);
+  std::ranges::copy(shape.semi_axes, wire.semi_axes);
+  std::ranges::copy(shape.epsilon, wire.epsilon);
+  std::ranges::copy(shape.taper, wire.taper);
+  return wire;
+}
+
+static Result<std::vector<msg::SuperquadricShape>> FromWire(
+    const std::vector<superquadric_t>& wires) {
+  std::vector<msg::SuperquadricShape> shapes;
+  for (const superquadric_t& wire : wires) {
+    const auto X_WO = PoseFromArrays(wire.X_WO_position, wire.X_WO_rotation);
+    if (!X_WO) return X_WO.error();
+    msg::SuperquadricShape& shape = shapes.emplace_back();
+    shape.X_WO = *X_WO;
+    std::ranges::copy(wire.semi_axes, shape.semi_axes.begin());
+    std::ranges::copy(wire.epsilon, shape.epsilon.begin());
+    std::ranges::copy(wire.taper, shape.taper.begin());
+  }
+  return shapes;
+}
+
 void Walk(Walker& w, const object_pose_t*) {
   w.Skip(4 + 7 * 8 + 3 * 8 + 2 * 8 + 2 * 8 + 4 + 1 + 1);
   w.String("reason", kMaxText);
   w.Skip(36 * 4);
-  const int32_t grasps = w.Count("n_grasps", kMaxGrasps);
+  w.Skip(static_cast<size_t>(w.Count("n_alternatives", msg::kMaxAlternatives)) * kBytesOfShape);
+  w.Skip(static_cast<size_t>(w.Count("n_parts", msg::kMaxParts)) * kBytesOfShape);
+  const int32_t grasps = w.Count("n_grasps", msg::kMaxGrasps);
   w.Skip(static_cast<size_t>(grasps) * (7 * 8 + 8 + 4));
   w.Skip(4);
 }
@@ -114,15 +155,20 @@ void Walk(Walker& w, const object_pose_t*) {
 Status Check(const msg::ObjectPose& pose) {
   Rules rules("object pose");
   rules.Range(pose.object_id, "object_id", 1, 1e9)
-      .Require(Sane(pose.X_WO), "X_WO is not a pose")
+      .Require(CheckShape(pose.X_WO, pose.semi_axes, pose.epsilon, pose.taper))
       .Range(pose.mean_radial_distance_m, "mean_radial_distance_m", 0, 1000)
       .Text(pose.reason, "reason")
       .Require(pose.covariance.allFinite(), "covariance is not finite")
       .Range(pose.fit_ms, "fit_ms", 0, 1e9)
-      .Count(pose.grasps.size(), "grasps", kMaxGrasps);
-  for (double a : pose.semi_axes) rules.Range(a, "semi-axis", 1e-6, 100);
-  for (double e : pose.epsilon) rules.Range(e, "epsilon", 0.02, 2);
-  for (double k : pose.taper) rules.Range(k, "taper", -1, 1);
+      .Count(pose.alternatives.size(), "alternatives", msg::kMaxAlternatives)
+      .Count(pose.parts.size(), "parts", msg::kMaxParts)
+      .Require(pose.parts.size() != 1, "parts: one alone is no part")
+      .Count(pose.grasps.size(), "grasps", msg::kMaxGrasps);
+  for (const auto* shapes : {&pose.alternatives, &pose.parts}) {
+    for (const auto& s : *shapes) {
+      rules.Require(CheckShape(s.X_WO, s.semi_axes, s.epsilon, s.taper));
+    }
+  }
   for (const auto& grasp : pose.grasps) {
     rules.Require(Sane(grasp.X_WG), "grasp: X_WG is not a pose")
         .Range(grasp.opening_m, "grasp: opening_m", 1e-4, 10)
@@ -145,6 +191,10 @@ object_pose_t ToWire(const msg::ObjectPose& pose) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) wire.covariance[i][j] = pose.covariance(i, j);
   }
+  wire.n_alternatives = static_cast<int32_t>(pose.alternatives.size());
+  for (const auto& shape : pose.alternatives) wire.alternatives.push_back(ToWire(shape));
+  wire.n_parts = static_cast<int32_t>(pose.parts.size());
+  for (const auto& shape : pose.parts) wire.parts.push_back(ToWire(shape));
   wire.n_grasps = static_cast<int32_t>(pose.grasps.size());
   for (const auto& grasp : pose.grasps) {
     grasp_t g{};
@@ -175,6 +225,11 @@ Result<msg::ObjectPose> FromWire(const object_pose_t& wire) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) pose.covariance(i, j) = wire.covariance[i][j];
   }
+  auto alternatives = FromWire(wire.alternatives), parts = FromWire(wire.parts);
+  if (!alternatives) return alternatives.error();
+  if (!parts) return parts.error();
+  pose.alternatives = *std::move(alternatives);
+  pose.parts = *std::move(parts);
   for (const auto& g : wire.grasps) {
     const auto X_WG = PoseFromArrays(g.X_WG_position, g.X_WG_rotation);
     if (!X_WG) return X_WG.error();

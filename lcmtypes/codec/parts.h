@@ -16,7 +16,6 @@ namespace beckon::codec {
 inline constexpr int kMaxName = 64;    // categories, actions, users, counters
 inline constexpr int kMaxText = 1024;  // sentences, file names
 inline constexpr int kMaxOptions = 64;
-inline constexpr int kMaxGrasps = 16;
 
 /// Checks in the order written; the first that fails is reported as "<type>: <what>".
 class Rules {

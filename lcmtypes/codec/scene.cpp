@@ -26,13 +26,14 @@ static void Walk(Walker& w, const scene_object_t*) {
   w.Skip(3 * 8 + 3 * 8 + 4 + 8);
   w.Skip(static_cast<size_t>(w.Count("n_samples", kMaxSamples)) * 6);
   w.Skip(3 * 8);
+  w.Skip(static_cast<size_t>(w.Count("n_rim", kMaxRim)) * (6 + 1));
   w.Skip(static_cast<size_t>(w.Count("n_outline", kMaxVertices)) * 4);
 }
 
 static void Walk(Walker& w, const scene_t*) {
   w.Skip(3 * 8);
   w.String("source", kMaxText);
-  w.Skip(4 + 4 + 1 + 7 * 8);
+  w.Skip(4 + 4 + 4 * 8 + 1 + 7 * 8);
   w.Skip(static_cast<size_t>(w.Count("n_table", kMaxVertices)) * 16);
   const int32_t objects = w.Count("n_objects", msg::kMaxObjects);
   for (int32_t i = 0; i < objects && w.ok(); ++i)
@@ -40,10 +41,32 @@ static void Walk(Walker& w, const scene_t*) {
   w.Skip(4 + 4);
 }
 
-/// Samples travel as offsets from the first.
+/// Samples and rim travel as offsets from the first of them.
 static Eigen::Vector3d Origin(const msg::SceneObject& object) {
-  return object.points_C.empty() ? Eigen::Vector3d::Zero()
-                                 : object.points_C.front().cast<double>().eval();
+  if (!object.points_C.empty()) return object.points_C.front().cast<double>();
+  if (!object.rim_C.empty()) return object.rim_C.front().point.cast<double>();
+  return Eigen::Vector3d::Zero();
+}
+
+/// Whether what stands for `p` is within reach of an offset; half a unit is what rounding may add
+/// on the way.
+static bool Reaches(const Eigen::Vector3d& origin, const Eigen::Vector3f& p) {
+  return p.allFinite() &&
+         (p.cast<double>() - origin).cwiseAbs().maxCoeff() <= kMaxReach_m + kPointUnit_m;
+}
+
+static std::vector<int16_t> ToCounts(const Eigen::Vector3d& origin, const Eigen::Vector3f& p) {
+  std::vector<int16_t> counts;
+  for (int i = 0; i < 3; ++i) {
+    counts.push_back(static_cast<int16_t>(
+        std::clamp(std::lround((p[i] - origin[i]) / kPointUnit_m), -32767L, 32767L)));
+  }
+  return counts;
+}
+
+static Eigen::Vector3f FromCounts(const Eigen::Vector3d& origin, double unit_m,
+                                  const std::vector<int16_t>& counts) {
+  return (origin + Eigen::Vector3d(counts[0], counts[1], counts[2]) * unit_m).cast<float>();
 }
 
 static Status Check(const msg::SceneObject& object) {
@@ -58,16 +81,19 @@ static Status Check(const msg::SceneObject& object) {
                "extent_W is not a size")
       .Require(object.n_points >= 0, "n_points is negative")
       .Count(object.points_C.size(), "points_C", kMaxSamples)
+      .Count(object.rim_C.size(), "rim_C", kMaxRim)
       .Count(object.outline_px.size(), "outline_px", kMaxVertices);
   for (const auto& p : object.probabilities) {
     rules.Name(p.category, "category").Range(p.probability, "probability", 0, 1);
   }
   const Eigen::Vector3d origin = Origin(object);
   for (const auto& p : object.points_C) {
-    // Half a unit is what rounding may add on the way.
-    rules.Require(p.allFinite() && (p.cast<double>() - origin).cwiseAbs().maxCoeff() <=
-                                       kMaxReach_m + kPointUnit_m,
-                  "points_C spans more than 3 m or is not finite");
+    rules.Require(Reaches(origin, p), "points_C spans more than 3 m or is not finite");
+  }
+  for (const auto& rim : object.rim_C) {
+    rules.Require(Reaches(origin, rim.point), "rim_C is more than 3 m off or is not finite")
+        .Range(static_cast<int>(rim.beyond), "rim_beyond", scene_object_t::BEYOND_UNKNOWN,
+               scene_object_t::BEYOND_IMAGE_BORDER);
   }
   return rules;
 }
@@ -79,6 +105,7 @@ static Status Check(const msg::Scene& scene) {
       .Text(scene.source, "source")
       .Range(scene.width, "width", 1, 4096)
       .Range(scene.height, "height", 1, 4096)
+      .Require(Validate(scene.intrinsics))
       .Require(Sane(scene.X_WC), "X_WC is not a pose")
       .Count(scene.table_W.size(), "table_W", kMaxVertices)
       .Count(scene.objects.size(), "objects", msg::kMaxObjects)
@@ -115,13 +142,11 @@ static scene_object_t ToWire(const msg::SceneObject& object) {
   const Eigen::Vector3d origin = Origin(object);
   ToArray(origin, wire.points_origin_C);
   wire.n_samples = static_cast<int32_t>(object.points_C.size());
-  for (const auto& p : object.points_C) {
-    std::vector<int16_t> counts(3);
-    for (int i = 0; i < 3; ++i) {
-      counts[i] = static_cast<int16_t>(
-          std::clamp(std::lround((p[i] - origin[i]) / kPointUnit_m), -32767L, 32767L));
-    }
-    wire.points_C.push_back({counts[0], counts[1], counts[2]});
+  for (const auto& p : object.points_C) wire.points_C.push_back(ToCounts(origin, p));
+  wire.n_rim = static_cast<int32_t>(object.rim_C.size());
+  for (const auto& rim : object.rim_C) {
+    wire.rim_C.push_back(ToCounts(origin, rim.point));
+    wire.rim_beyond.push_back(static_cast<int8_t>(rim.beyond));
   }
   wire.n_outline = static_cast<int32_t>(object.outline_px.size());
   for (const auto& vertex : object.outline_px) wire.outline_px.push_back({vertex[0], vertex[1]});
@@ -136,6 +161,10 @@ static scene_t ToWire(const msg::Scene& scene) {
   wire.source = scene.source;
   wire.width = scene.width;
   wire.height = scene.height;
+  wire.fx = scene.intrinsics.fx;
+  wire.fy = scene.intrinsics.fy;
+  wire.cx = scene.intrinsics.cx;
+  wire.cy = scene.intrinsics.cy;
   wire.has_table = scene.has_table;
   PoseToArrays(scene.X_WC, wire.X_WC_position, wire.X_WC_rotation);
   wire.n_table = static_cast<int32_t>(scene.table_W.size());
@@ -164,8 +193,11 @@ static Result<msg::SceneObject> FromWire(const scene_object_t& wire) {
   const Eigen::Vector3d origin = FromArray(wire.points_origin_C);
   object.points_C.reserve(wire.points_C.size());
   for (const auto& p : wire.points_C) {
-    object.points_C.push_back(
-        (origin + Eigen::Vector3d(p[0], p[1], p[2]) * wire.point_unit_m).cast<float>());
+    object.points_C.push_back(FromCounts(origin, wire.point_unit_m, p));
+  }
+  for (size_t i = 0; i < wire.rim_C.size(); ++i) {
+    object.rim_C.push_back({FromCounts(origin, wire.point_unit_m, wire.rim_C[i]),
+                            static_cast<Beyond>(wire.rim_beyond[i])});
   }
   for (const auto& vertex : wire.outline_px) object.outline_px.push_back({vertex[0], vertex[1]});
   return object;
@@ -182,6 +214,7 @@ static Result<msg::Scene> FromWire(const scene_t& wire) {
   scene.source = wire.source;
   scene.width = wire.width;
   scene.height = wire.height;
+  scene.intrinsics = {wire.fx, wire.fy, wire.cx, wire.cy};
   scene.has_table = wire.has_table != 0;
   scene.X_WC = *X_WC;
   for (const auto& vertex : wire.table_W) scene.table_W.emplace_back(vertex[0], vertex[1]);

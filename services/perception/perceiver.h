@@ -31,9 +31,9 @@ struct PerceivedObject {
 
 struct Perception {
   Segmentation segmentation;
-  Pose X_WC = Pose::Identity();  // the camera in the table's frame W
-  std::vector<PerceivedObject> objects;
-  double segmentation_ms = 0;  // with measuring and tracking the objects
+  Pose X_WC = Pose::Identity();          // the camera in the table's frame W
+  std::vector<PerceivedObject> objects;  // objects[k - 1] is label k of the segmentation
+  double segmentation_ms = 0;            // with measuring and tracking the objects
   double categorisation_ms = 0;
   std::vector<std::pair<std::string, double>> steps_ms;  // of segmentation
 };

@@ -2,6 +2,9 @@
 #include "services/perception/scene_message.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "services/base/rim.h"
 
 namespace beckon::perception {
 namespace {
@@ -9,7 +12,10 @@ namespace {
 constexpr size_t kMaxHull = 64;           // vertices of the table
 constexpr size_t kMaxProbabilities = 12;  // categories told of one object
 constexpr size_t kBytesOfPoint = 6;
-constexpr size_t kMargin = 1500;  // source, table's pose, times and lengths
+constexpr size_t kBytesOfRimPoint = 7;
+constexpr size_t kSamplesFirst = 40;  // points of an object that its rim takes no room from;
+constexpr size_t kRimsPart = 2;       // of the rest it takes at most this part
+constexpr size_t kMargin = 1500;      // source, table's pose, times and lengths
 
 /// Every so many-th vertex of a hull that has too many.
 std::vector<Eigen::Vector2d> TableOutline(const Perception& perception) {
@@ -57,12 +63,31 @@ msg::SceneObject MakeObject(const PerceivedObject& perceived) {
   return object;
 }
 
+/// Rims and samples of as many objects as `scene` has, each within `share` bytes.
+void FillPoints(const RgbdImage& image, const Perception& perception, size_t share,
+                msg::Scene& scene) {
+  const auto& segmentation = perception.segmentation;
+  const size_t first = std::min(share, kSamplesFirst * kBytesOfPoint);
+  const size_t n_rim = std::min<size_t>((share - first) / kRimsPart / kBytesOfRimPoint, kMaxRim);
+  const size_t n_samples =
+      std::min<size_t>((share - n_rim * kBytesOfRimPoint) / kBytesOfPoint, kMaxSamples);
+  // Object k of the segmentation is the k-th that was perceived.
+  auto rims = FindRims(image, segmentation.labels, static_cast<int>(scene.objects.size()),
+                       segmentation.table_C, static_cast<int>(n_rim));
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    scene.objects[i].rim_C = std::move(rims[i]);
+    scene.objects[i].points_C =
+        SampleSurface(image, perception.objects[i].shape.pixels, static_cast<int>(n_samples));
+  }
+}
+
 }  // namespace
 
 msg::Scene MakeScene(const RgbdImage& image, const Perception& perception) {
   msg::Scene scene;
   scene.width = image.width;
   scene.height = image.height;
+  scene.intrinsics = image.intrinsics;
   scene.segmentation_ms = static_cast<float>(perception.segmentation_ms);
   scene.categorisation_ms = static_cast<float>(perception.categorisation_ms);
   scene.has_table = perception.segmentation.table_C.has_value();
@@ -78,11 +103,7 @@ msg::Scene MakeScene(const RgbdImage& image, const Perception& perception) {
     bytes += BytesWithoutPoints(scene.objects.back());
   }
   const size_t room = msg::kMaxDatagram > bytes ? msg::kMaxDatagram - bytes : 0;
-  const size_t share = n_objects == 0 ? 0 : room / n_objects / kBytesOfPoint;
-  const int n_samples = static_cast<int>(std::min<size_t>(share, kMaxSamples));
-  for (size_t i = 0; i < n_objects; ++i) {
-    scene.objects[i].points_C = SampleSurface(image, perception.objects[i].shape.pixels, n_samples);
-  }
+  FillPoints(image, perception, n_objects == 0 ? 0 : room / n_objects, scene);
   return scene;
 }
 

@@ -9,8 +9,9 @@ namespace beckon::perception {
 /// Most points an object's thinned cloud has in a SCENE.
 inline constexpr int kMaxSamples = 600;
 
-/// The scene of a frame; `seq` and what comes of the frame are left to the caller. Objects share
-/// what one datagram has room for, so that the encoded message never passes msg::kMaxDatagram.
+/// The scene of a frame, with the rims of its objects; `seq` and what comes of the frame are left
+/// to the caller. Objects share what one datagram has room for, so that the encoded message never
+/// passes msg::kMaxDatagram.
 msg::Scene MakeScene(const RgbdImage& image, const Perception& perception);
 
 }  // namespace beckon::perception

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "services/pose/distance_kernel.h"
 #include "services/pose/fit_stage.h"
 
 namespace beckon::pose {
@@ -20,8 +21,11 @@ constexpr int kJudges = 1000;  // points that the mean distance is taken of, at 
 constexpr int kWitnesses = 300;
 constexpr double kThinnest_m = 0.0005;  // spread below which points lie on a plane or a line
 
-constexpr std::array<std::pair<Method, const char*>, 2> kMethods{
-    {{Method::kAdaptive, "adaptive"}, {Method::kMultiscale, "multiscale"}}};
+constexpr std::array<std::pair<Method, const char*>, 4> kMethods{
+    {{Method::kAdaptive, "adaptive"},
+     {Method::kMultiscale, "multiscale"},
+     {Method::kClassic, "classic"},
+     {Method::kHierarchical, "hierarchical"}}};
 
 template <typename... Args>
 std::string Text(const char* format, Args... args) {
@@ -64,11 +68,9 @@ Superquadric BoxOf(const PrincipalBox& box) {
   return shape;
 }
 
-// Covariance of position and rotation: the block of the inverse Gauss-Newton Hessian of distances
-// over all eleven parameters, times the mean squared distance. Directions without information get
-// the variance of total ignorance through a weak prior.
-Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const PointList& points) {
-  constexpr int kUsed = kTaper;  // all but taper
+// What the points alone tell of the parameters: the Gauss-Newton Hessian of their distances over the mean
+// squared distance.
+ParameterMatrix InformationOf(const Superquadric& shape, const PointList& points) {
   NormalEquations eq;
   double squares = 0;
   for (const auto& p : points) {
@@ -76,14 +78,21 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const Poin
     eq.Add(d.distance_m, d.jacobian);
     squares += d.distance_m * d.distance_m;
   }
-  const double dof = std::max<double>(static_cast<double>(points.size()) - kUsed, 1);
+  const double dof = std::max<double>(static_cast<double>(points.size()) - kTaper, 1);
   const double variance = std::max(squares / dof, 1e-12);
+  return ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()) / variance;
+}
+
+// Covariance of position and rotation: the block of the inverse information on all parameters but taper.
+// Directions without information get the variance of total ignorance through a weak prior.
+Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape,
+                                           const ParameterMatrix& parameter_information) {
+  constexpr int kUsed = kTaper;
   Eigen::Matrix<double, kUsed, 1> prior;  // standard deviations of total ignorance
   prior << 1, 1, 1, 0.5, 0.5, Eigen::Vector3d::Constant(std::numbers::pi / std::sqrt(3.0)),
       Eigen::Vector3d::Constant(shape.semi_axes.maxCoeff());
   Eigen::Matrix<double, kUsed, kUsed> information =
-      ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()).topLeftCorner<kUsed, kUsed>() /
-      variance;
+      parameter_information.topLeftCorner<kUsed, kUsed>();
   information.diagonal() += prior.array().square().inverse().matrix();
   const Eigen::Matrix<double, kUsed, kUsed> covariance =
       information.ldlt().solve(Eigen::Matrix<double, kUsed, kUsed>::Identity());
@@ -96,6 +105,39 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const Poin
   return 0.5 * (pose + pose.transpose());
 }
 
+// Mean radial distance of `most` of the points, m.
+double MeanRadialDistanceOf(const Superquadric& shape, const PointList& points, int most) {
+  const PointList part = Thinned(points, most);
+  if (!shape.taper.isZero(0)) return MeanRadialDistance(shape, part);
+  double sum = 0;
+  PointBlock block;
+  const auto empty = [&] {
+    block.Pad();
+    sum += SumRadialDistances(shape, block);
+    block.size = 0;
+  };
+  for (const auto& p : part) {
+    block.Add(p, 1);
+    if (block.full()) empty();
+  }
+  if (block.size > 0) empty();
+  return sum / static_cast<double>(part.size());
+}
+
+MethodOutcome FitBy(const FitConfig& config, const PointList& points, const FitInput& input) {
+  switch (config.method) {
+    case Method::kMultiscale:
+      return FitMultiscale(points, config.multiscale);
+    case Method::kClassic:
+      return FitClassic(points, config.classic);
+    case Method::kHierarchical:
+      return FitHierarchical(points, config.hierarchical);
+    case Method::kAdaptive:
+      break;
+  }
+  return FitAdaptive(points, input.table_F, input.viewpoint_F, input.rim_F, config.adaptive);
+}
+
 bool IsFinite(const Superquadric& s) {
   return s.semi_axes.allFinite() && s.semi_axes.minCoeff() > 0 && s.epsilon.allFinite() &&
          s.taper.allFinite() && s.X_FO.matrix().allFinite();
@@ -104,12 +146,18 @@ bool IsFinite(const Superquadric& s) {
 }  // namespace
 
 Result<Method> ParseMethod(const std::string& name) {
-  std::string names;
   for (const auto& [method, known] : kMethods) {
     if (name == known) return method;
-    names += (names.empty() ? "" : ", ") + std::string(known);
   }
-  return Error{"there is no fitting method '" + name + "'; this build has: " + names};
+  return Error{"there is no fitting method '" + name + "'; this build has: " + MethodNames()};
+}
+
+std::string MethodNames() {
+  std::string names;
+  for (const auto& [method, name] : kMethods) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
 }
 
 const char* Name(Method method) {
@@ -135,10 +183,7 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
                       : Unfit(box, config);
   if (!result.reason.empty()) return result;
 
-  const MethodOutcome outcome =
-      config.method == Method::kAdaptive
-          ? FitAdaptive(points, input.table_F, input.viewpoint_F, input.rim_F, config.adaptive)
-          : FitMultiscale(points, config.multiscale);
+  const MethodOutcome outcome = FitBy(config, points, input);
   result.iterations = outcome.iterations;
   if (!IsFinite(outcome.shape)) {
     result.reason = "the fit did not stay finite";
@@ -146,8 +191,11 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   }
   result.shape = outcome.shape;
   result.ambiguous = outcome.ambiguous;
-  result.mean_radial_distance_m = MeanRadialDistance(result.shape, Thinned(points, kJudges));
-  result.covariance = PoseCovariance(result.shape, Thinned(points, kWitnesses));
+  result.mean_radial_distance_m = MeanRadialDistanceOf(result.shape, points, kJudges);
+  result.covariance = PoseCovariance(
+      result.shape, outcome.information
+                        ? *outcome.information
+                        : InformationOf(result.shape, Thinned(points, kWitnesses)));
   if (!outcome.converged) {
     result.reason = "the fit was still improving when its iterations ran out";
   } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {

@@ -11,21 +11,27 @@
 #include "services/base/result.h"
 #include "services/base/rim.h"
 #include "services/pose/fit_adaptive.h"
+#include "services/pose/fit_classic.h"
+#include "services/pose/fit_hierarchical.h"
 #include "services/pose/fit_multiscale.h"
 #include "services/pose/superquadric.h"
 
 namespace beckon::pose {
 
-enum class Method { kAdaptive, kMultiscale };
+enum class Method { kAdaptive, kMultiscale, kClassic, kHierarchical };
 
 /// The method of that name; fails, naming those that exist, where there is none.
 Result<Method> ParseMethod(const std::string& name);
 const char* Name(Method method);
+/// All methods' names: "adaptive, multiscale, ..".
+std::string MethodNames();
 
 struct FitConfig {
   Method method = Method::kAdaptive;
   AdaptiveConfig adaptive;
   MultiscaleConfig multiscale;
+  ClassicConfig classic;
+  HierarchicalConfig hierarchical;
   double max_extent_m = 3.0;    // a cloud larger than this is not an object in metres
   double min_extent_m = 0.005;  // one smaller than this shows nothing
   double max_radial_distance_m =

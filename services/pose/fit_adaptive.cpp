@@ -65,6 +65,7 @@ struct Candidate {
   LmResult result;
   size_t view;
   double cost;
+  double points_cost;    // m^2
   double outline_share;  // what the outline's weight is to be multiplied by
 };
 
@@ -135,7 +136,7 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
     return Candidate{result, view,
                      cost.points + cost.support + cost.tilt + cost.volume + views[view].charge +
                          config.outline_trust_m2 * std::log1p(outline),
-                     1 / (1 + outline)};
+                     cost.points, 1 / (1 + outline)};
   };
   const auto cheaper = [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; };
   for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start, 1));
@@ -150,9 +151,12 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   }
   std::stable_sort(candidates.begin(), candidates.end(), cheaper);
 
-  options = {config.fine_iterations, 1e-4};
+  options = {config.fine_iterations, config.fine_tolerance};
   std::vector<Candidate> best;
-  for (size_t i = 0; i < 2; ++i) best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape, candidates[i].outline_share));
+  for (size_t i = 0; i < 2; ++i) {
+    if (i > 0 && candidates[i].cost > config.runner_up * candidates[0].cost) break;
+    best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape, candidates[i].outline_share));
+  }
   std::stable_sort(best.begin(), best.end(), cheaper);
   if (getenv("BDBG")) {  // DEBUG
     const auto show = [&](const char* w, const Candidate& c, const PointBlock& pts) {
@@ -167,9 +171,14 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   }
   outcome.shape = best[0].result.shape;
   outcome.converged = best[0].result.converged;
-  const bool other_shape = MeanRadialDistance(best[1].result.shape, spread) <
+  const bool other_shape = best.size() > 1 && MeanRadialDistance(best[1].result.shape, spread) <
                                kAboutAsGood * MeanRadialDistance(best[0].result.shape, spread) &&
                            ShapeDifference(best[0].result.shape, best[1].result.shape) > kOtherShape_m;
+  // The cost is a mean of squared distances; neighbours err together, so that hundreds of points do not know
+  // as much as if they were independent.
+  outcome.information =
+      ParameterMatrix(best[0].result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
+      (config.witnesses / std::max(best[0].points_cost, 4e-8));
   outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, spread, scene, config.unseen_foot_m);
   return outcome;
 }

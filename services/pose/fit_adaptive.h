@@ -37,6 +37,9 @@ struct AdaptiveConfig {
   double outline_outside_m = 0.003;  // where it falls short
   // Outlines that may be cut off along a straight line.
   double outline_trust_m2 = 4e-7;
+  double runner_up = 1.2;         // the second best start is refined if it costs less than this times the best
+  double fine_tolerance = 1e-4;
+  double witnesses = 30;          // independent points that the covariance counts
   bool cut_hypotheses = true;
   double nat_m2 = 6e-9;     // what a factor of e in probability weighs
   double cut_pull_m2 = 1e-7; // weight of how far it goes on

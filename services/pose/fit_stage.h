@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct MethodOutcome {
   bool converged = false;  // the last minimisation came to rest
   bool ambiguous = false;
   std::vector<int> iterations;
+  // Where the method knows it: the information on its parameters, of which the covariance is the inverse.
+  std::optional<ParameterMatrix> information;
 };
 
 /// At most about `count` points: every so manieth.

@@ -34,14 +34,20 @@ int main(int argc, char** argv) {
   app.add_option("--input", offline.inputs,
                  "Clouds to fit instead of serving (.pcd .ply .xyz, metres)")
       ->type_name("CLOUD");
+  app.add_option("--labels", offline.labels,
+                 "16-bit PNG that labels the objects of one organised input; a result for each")
+      ->type_name("LABELS.png");
   app.add_option("--plane", offline.plane, "The inputs' table, n.p + d = 0")
       ->type_name("nx,ny,nz,d");
   app.add_option("--list", offline.list, "A line {\"file\": .., \"plane\": [..]} for each cloud")
       ->type_name("LIST.jsonl");
-  app.add_option("--method", method, "adaptive or multiscale (default: the configuration's)");
+  app.add_option("--method", method,
+                 "One of " + pose::MethodNames() + " (default: the configuration's)");
   app.add_option("--json", offline.json, "Where the poses go")->type_name("OUT.json");
   app.add_option("--picture", offline.picture, "Where a picture of them goes")
       ->type_name("OUT.png");
+  app.add_option("--mesh", offline.mesh, "Where the converged shapes go as triangles")
+      ->type_name("OUT.ply");
   app.add_option("--repeat", offline.repeat, "Fits of each cloud; the median time is told")
       ->check(CLI::Range(1, 1000000));
 
@@ -56,7 +62,8 @@ int main(int argc, char** argv) {
       config->fit.method = *parsed;
     }
     if (options.check_config) return {};
-    const bool outputs = !offline.json.empty() || !offline.picture.empty();
+    const bool outputs = !offline.json.empty() || !offline.picture.empty() ||
+                         !offline.mesh.empty() || !offline.labels.empty();
     if (offline.inputs.empty() && offline.list.empty() && !outputs) return Serve(options, *config);
     if (offline.json.empty()) return Error{"expected --json OUT.json with --input or --list"};
     return pose::RunOffline(offline, *config);

@@ -28,6 +28,9 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("cut_hypotheses", c.cut_hypotheses);
   table.Get("nat_m2", c.nat_m2, 0, 1);
   table.Get("outline_trust_m2", c.outline_trust_m2, 0, 1);
+  table.Get("runner_up", c.runner_up, 1, 1000);
+  table.Get("fine_tolerance", c.fine_tolerance, 1e-9, 1);
+  table.Get("witnesses", c.witnesses, 1, 1e6);
   table.Get("cut_pull_m2", c.cut_pull_m2, 0, 1);
   table.Get("cut_nats", c.cut_nats, 0, 1e6);
   table.Get("cut_beyond", c.cut_beyond, 0, 10);
@@ -37,11 +40,16 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("table_margin_m", c.table_margin_m, 0, 1);
 }
 
+void CheckVoxels(ConfigTable& table, const std::vector<double>& voxels_m) {
+  for (double voxel_m : voxels_m) {
+    if (!(voxel_m >= 1e-4)) table.Fail("voxels_m", "every voxel is at least 0.0001 m long");
+  }
+}
+
 void ReadMultiscale(ConfigTable table, MultiscaleConfig& c) {
   table.Get("voxels_m", c.voxels_m);
-  for (double voxel_m : c.voxels_m) {
-    if (!(voxel_m > 0)) table.Fail("voxels_m", "every voxel is longer than 0 m");
-  }
+  CheckVoxels(table, c.voxels_m);
+  table.Get("smooth_m", c.smooth_m, 0, 1);
   table.Get("max_iterations", c.max_iterations, 1, 1000);
   table.Get("stop_change", c.stop_change, 0, 1);
   table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
@@ -51,12 +59,46 @@ void ReadMultiscale(ConfigTable table, MultiscaleConfig& c) {
   table.Get("max_taper", c.max_taper, 0, 0.9);
 }
 
+void ReadClassic(ConfigTable table, ClassicConfig& c) {
+  table.Get("points", c.points, 20, 100000);
+  table.Get("max_iterations", c.max_iterations, 1, 1000);
+  table.Get("tolerance", c.tolerance, 0, 1);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
+  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
+  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
+  table.Get("max_taper", c.max_taper, 0, 0.9);
+}
+
+void ReadHierarchical(ConfigTable table, HierarchicalConfig& c) {
+  table.Get("voxels_m", c.voxels_m);
+  CheckVoxels(table, c.voxels_m);
+  table.Get("hypotheses", c.hypotheses, 1, 100000);
+  table.Get("keep", c.keep, 0, 1);
+  table.Get("min_region", c.min_region, 0, 1);
+  table.Get("sample_points", c.sample_points, 20, 100000);
+  table.Get("sample_iterations", c.sample_iterations, 1, 1000);
+  table.Get("level_iterations", c.level_iterations, 1, 1000);
+  table.Get("fine_points", c.fine_points, 20, 100000);
+  table.Get("fine_iterations", c.fine_iterations, 1, 1000);
+  table.Get("inlier_m", c.inlier_m, 1e-5, 0.1);
+  table.Get("seed", c.seed, 0);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
+  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
+  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
+}
+
 void ReadGripper(ConfigTable table, GripperConfig& c) {
   table.Get("max_opening_m", c.max_opening_m, 0.001, 1);
   table.Get("finger_depth_m", c.finger_depth_m, 0.001, 1);
   table.Get("finger_half_width_m", c.finger_half_width_m, 0, 1);
+  table.Get("finger_thickness_m", c.finger_thickness_m, 0, 1);
+  table.Get("palm_width_m", c.palm_width_m, 0, 1);
+  table.Get("palm_thickness_m", c.palm_thickness_m, 0, 1);
+  table.Get("palm_depth_m", c.palm_depth_m, 0, 1);
+  table.Get("approach_m", c.approach_m, 0, 1);
   table.Get("clearance_m", c.clearance_m, 0, 1);
-  table.Get("min_side_height_m", c.min_side_height_m, 0, 10);
   table.Get("max_slip_rad", c.max_slip_rad, 0, 1.6);
 }
 
@@ -78,6 +120,8 @@ Result<PoseConfig> ReadPoseConfig(ConfigTable table) {
   limits.Get("max_radial_distance_m", config.fit.max_radial_distance_m, 0, 1);
   ReadAdaptive(table.Section("adaptive"), config.fit.adaptive);
   ReadMultiscale(table.Section("multiscale"), config.fit.multiscale);
+  ReadClassic(table.Section("classic"), config.fit.classic);
+  ReadHierarchical(table.Section("hierarchical"), config.fit.hierarchical);
   ReadGripper(table.Section("gripper"), config.gripper);
   if (Status finished = table.Finish(); !finished) return finished.error();
   return config;

@@ -7,7 +7,7 @@
 namespace beckon::pose {
 
 /// Defaults with the file's keys over them: `method`, [limits], [adaptive], [multiscale],
-/// [gripper].
+/// [classic], [hierarchical], [gripper].
 Result<PoseConfig> ReadPoseConfig(ConfigTable table);
 
 }  // namespace beckon::pose

@@ -70,6 +70,18 @@ json ToJson(const GraspCandidate& grasp) {
           {"score", grasp.score}};
 }
 
+json ToJson(const std::vector<Superquadric>& shapes_F) {
+  json list = json::array();
+  for (const Superquadric& shape : shapes_F) {
+    list.push_back({{"position", Array(shape.X_FO.translation())},
+                    {"rotation", QuaternionWxyz(shape.X_FO)},
+                    {"semi_axes", Array(shape.semi_axes)},
+                    {"epsilon", Array(shape.epsilon)},
+                    {"taper", Array(shape.taper)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Result<std::vector<CloudRequest>> ReadCloudList(const std::string& path) {
@@ -128,11 +140,14 @@ std::string PosesToJson(const std::vector<CloudPose>& poses, const std::string& 
                     {"converged", fit.converged},
                     {"reason", fit.reason},
                     {"ambiguous", fit.ambiguous},
+                    {"alternatives", ToJson(fit.alternatives)},
+                    {"parts", ToJson(fit.parts)},
                     {"covariance", covariance},
                     {"grasps", grasps},
                     {"points", fit.points_used},
                     {"iterations", fit.iterations},
-                    {"time_ms", pose.time_ms}});
+                    {"time_ms", pose.estimate.time_ms}});
+    if (pose.request.label != 0) list.back()["label"] = pose.request.label;
   }
   // File names that are not UTF-8 are kept readable rather than refused.
   return list.dump(1, ' ', false, json::error_handler_t::replace) + "\n";

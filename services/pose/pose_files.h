@@ -16,6 +16,7 @@ struct CloudRequest {
   std::string file;   // as the user gave it
   std::string path;   // where it is
   std::string where;  // what names it in messages, e.g. "list.jsonl:3: cup.xyz"
+  int label = 0;      // of the object in a labelled scene; 0 = the whole cloud
   std::optional<Plane> table_F;
   Eigen::Vector3d viewpoint_F = Eigen::Vector3d::Zero();
 };
@@ -32,7 +33,6 @@ Result<Plane> ParsePlane(const std::string& text);
 struct CloudPose {
   CloudRequest request;
   Estimate estimate;
-  double time_ms = 0;
 };
 
 /// The JSON of docs/formats.md: a list in input order, all in the input's frame.

@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "services/pose/pose_message.h"
@@ -10,34 +11,72 @@
 namespace beckon::pose {
 
 msg::Poses SceneEstimator::Estimate(const msg::Scene& scene) {
+  std::vector<Known> now;
+  bool changed = scene.objects.size() != known_.size();
+  for (const msg::SceneObject& object : scene.objects) {
+    if (Known* same = FindSame(object, scene)) {
+      now.push_back(std::move(*same));
+      ++counts_.reused;
+    } else {
+      now.push_back(FitOne(object, scene));
+      changed = true;
+    }
+  }
+  known_ = std::move(now);
+  if (changed) GraspAll(scene);
+
   msg::Poses poses;
   poses.utime = scene.utime;
   poses.scene_seq = scene.seq;
-  std::map<int, Known> now;
-  for (const msg::SceneObject& object : scene.objects) {
-    poses.poses.push_back(EstimateOne(object, scene));
-    now[object.id] = {object.points_C, scene.X_WC, poses.poses.back()};
-  }
-  known_ = std::move(now);
+  for (const Known& known : known_) poses.poses.push_back(known.pose);
+  FitDatagram(poses);
   ++counts_.scenes;
   return poses;
 }
 
-msg::ObjectPose SceneEstimator::EstimateOne(const msg::SceneObject& object,
-                                            const msg::Scene& scene) {
-  const auto known = known_.find(object.id);
-  if (known != known_.end() && known->second.points_C == object.points_C &&
-      known->second.X_WC.matrix() == scene.X_WC.matrix()) {
-    ++counts_.reused;
-    return known->second.pose;
-  }
-  const Stopwatch stopwatch;
-  FitInput input{object.points_C, {}};
+SceneEstimator::Known* SceneEstimator::FindSame(const msg::SceneObject& object,
+                                                const msg::Scene& scene) {
+  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
+    return k.pose.object_id == object.id && k.points_C == object.points_C &&
+           k.rim_C == object.rim_C && k.X_WC.matrix() == scene.X_WC.matrix();
+  });
+  return known == known_.end() ? nullptr : &*known;
+}
+
+FitInput SceneEstimator::InputOf(const Known& known, const msg::Scene& scene) {
+  FitInput input;
+  input.points_F = known.points_C;
+  input.rim_F = known.rim_C;
   if (scene.has_table) input.table_F = TableInCamera(scene.X_WC);
-  const pose::Estimate estimate = EstimateObject(input, config_);
+  return input;
+}
+
+SceneEstimator::Known SceneEstimator::FitOne(const msg::SceneObject& object,
+                                             const msg::Scene& scene) {
+  const Stopwatch stopwatch;
+  Known known{object.points_C, object.rim_C, scene.X_WC, {}, 0, {}};
+  known.fit = FitObject(InputOf(known, scene), config_.fit);
+  known.fit_ms = stopwatch.Milliseconds();
+  known.pose.object_id = object.id;
   ++counts_.fitted;
-  if (!estimate.fit.converged) ++counts_.not_converged;
-  return ToMessage(estimate, scene.X_WC, object.id, stopwatch.Milliseconds());
+  if (!known.fit.converged) ++counts_.not_converged;
+  return known;
+}
+
+// Who moves, comes or goes changes how its neighbours can be grasped.
+void SceneEstimator::GraspAll(const msg::Scene& scene) {
+  std::vector<Obstacle> obstacles;
+  for (const Known& known : known_) {
+    obstacles.push_back(MakeObstacle(known.points_C, known.fit, config_.gripper.clearance_m));
+  }
+  for (size_t i = 0; i < known_.size(); ++i) {
+    Known& known = known_[i];
+    const Stopwatch stopwatch;
+    const pose::Estimate estimate{
+        known.fit, GraspObject(InputOf(known, scene), known.fit, {obstacles, i}, config_.gripper)};
+    known.pose = ToMessage(estimate, scene.X_WC, known.pose.object_id,
+                           known.fit_ms + stopwatch.Milliseconds());
+  }
 }
 
 PoseService::PoseService(Bus& bus, RunLoop& loop, const PoseConfig& config)

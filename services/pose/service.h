@@ -1,7 +1,6 @@
 // The pose service: newest SCENE in, POSES out.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -18,12 +17,12 @@ namespace beckon::pose {
 struct PoseCounts {
   int64_t scenes = 0;         // answered by POSES
   int64_t fitted = 0;         // objects
-  int64_t reused = 0;         // objects whose points and camera had not changed
+  int64_t reused = 0;         // objects whose points, rim and camera had not changed
   int64_t not_converged = 0;  // of those fitted
 };
 
 /// Estimates every object of a scene; objects that look exactly as in the last scene keep their
-/// pose.
+/// pose, and their grasps too where all of the scene does.
 class SceneEstimator {
  public:
   explicit SceneEstimator(const PoseConfig& config) : config_(config) {}
@@ -35,14 +34,20 @@ class SceneEstimator {
  private:
   struct Known {
     std::vector<Eigen::Vector3f> points_C;
+    std::vector<RimPoint> rim_C;
     Pose X_WC;
+    FitResult fit;
+    double fit_ms = 0;  // of the fit alone
     msg::ObjectPose pose;
   };
 
-  msg::ObjectPose EstimateOne(const msg::SceneObject& object, const msg::Scene& scene);
+  static FitInput InputOf(const Known& known, const msg::Scene& scene);
+  Known* FindSame(const msg::SceneObject& object, const msg::Scene& scene);
+  Known FitOne(const msg::SceneObject& object, const msg::Scene& scene);
+  void GraspAll(const msg::Scene& scene);
 
   const PoseConfig config_;
-  std::map<int, Known> known_;  // by object id, of the last scene only
+  std::vector<Known> known_;  // the objects of the last scene, in its order
   PoseCounts counts_;
 };
 

@@ -146,6 +146,23 @@ TEST(Codec, TheLargestChoiceFitsADatagram) {
   EXPECT_EQ(Codec<msg::Query>::Decode(*bytes)->options.size(), 64u);
 }
 
+TEST(Codec, ARimArrivesToATenthOfAMillimetreWithoutSamplesToo) {
+  msg::Scene scene = msg::ExampleScene();
+  scene.objects[0].points_C.clear();
+  const auto bytes = Codec<msg::Scene>::Encode(scene);
+  ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+  const auto decoded = Codec<msg::Scene>::Decode(*bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.error().message;
+  for (size_t i = 0; i < 2; ++i) {
+    const auto &sent = scene.objects[i].rim_C, &arrived = decoded->objects[i].rim_C;
+    ASSERT_EQ(arrived.size(), sent.size());
+    for (size_t k = 0; k < sent.size(); ++k) {
+      EXPECT_LT((arrived[k].point - sent[k].point).cwiseAbs().maxCoeff(), 0.51e-4);
+      EXPECT_EQ(arrived[k].beyond, sent[k].beyond);
+    }
+  }
+}
+
 TEST(Codec, RefusesValuesThatBreakTheRules) {
   const auto refused = []<typename T>(T value, auto break_it) {
     break_it(value);
@@ -187,7 +204,26 @@ TEST(Codec, RefusesValuesThatBreakTheRules) {
   EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.objects[1].id = s.objects[0].id; }));
   EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.objects[0].points_C[0].x() = 9; }));
   EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.has_table = false; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.objects[0].rim_C[1].point.y() = -9; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(),
+                      [&](auto& s) { s.objects[0].rim_C[1].point.x() = static_cast<float>(nan); }));
+  EXPECT_TRUE(refused(msg::ExampleScene(),
+                      [](auto& s) { s.objects[0].rim_C[0].beyond = static_cast<Beyond>(5); }));
+  EXPECT_TRUE(refused(msg::ExampleScene(),
+                      [](auto& s) { s.objects[0].rim_C.resize(97, s.objects[0].rim_C[0]); }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [](auto& s) { s.intrinsics.fy = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleScene(), [&](auto& s) { s.intrinsics.cx = nan; }));
   EXPECT_TRUE(refused(msg::ExamplePoses(), [](auto& p) { p.poses[0].semi_axes[1] = 0; }));
+  EXPECT_TRUE(
+      refused(msg::ExamplePoses(), [](auto& p) { p.poses[0].alternatives[0].epsilon[0] = 3; }));
+  EXPECT_TRUE(
+      refused(msg::ExamplePoses(), [&](auto& p) { p.poses[0].parts[1].semi_axes[2] = nan; }));
+  EXPECT_TRUE(refused(msg::ExamplePoses(), [](auto& p) { p.poses[0].parts.pop_back(); }));
+  EXPECT_TRUE(refused(msg::ExamplePoses(), [](auto& p) {
+    p.poses[0].alternatives.resize(5, p.poses[0].alternatives[0]);
+  }));
+  EXPECT_TRUE(refused(msg::ExamplePoses(),
+                      [](auto& p) { p.poses[0].parts.resize(9, p.poses[0].parts[0]); }));
   EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.confusion[0][0] = 0.5f; }));
   EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.seconds_per_question = 0; }));
   EXPECT_TRUE(refused(msg::ExampleFrame(), [](auto& f) { f.width = 0; }));
@@ -210,10 +246,10 @@ TEST(Codec, FingerprintsAreLocked) {
   const std::map<std::string, uint64_t> locked = {
       {"answer_t", 0xa22727a8afbaf8c6},  {"frame_t", 0x5b22eba1617c64a5},
       {"history_t", 0xcd16f6d015811a6c}, {"interface_t", 0x8fbf178510e3e991},
-      {"poses_t", 0x4af28811c3ba830f},   {"query_t", 0xcacf0cc24ccdf064},
-      {"scene_t", 0x332ecbbba7cbfe17},   {"session_t", 0x1e39e1f4c26e2b7c},
+      {"poses_t", 0x715036521295f425},   {"query_t", 0xcacf0cc24ccdf064},
+      {"scene_t", 0x4ef49dbaddf4c015},   {"session_t", 0x1e39e1f4c26e2b7c},
       {"status_t", 0x11a1e4a40922e1e7},  {"task_status_t", 0xc7536171eaec0f69},
-      {"task_t", 0xa2daf734834e4a51}};
+      {"task_t", 0xc938a574d229bb67}};
   EXPECT_EQ(now, locked);
 }
 

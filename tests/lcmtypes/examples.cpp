@@ -31,6 +31,10 @@ ObjectPose ExampleObjectPose() {
   pose.ambiguous = true;
   pose.reason = "box or cylinder";
   pose.covariance.setIdentity();
+  pose.alternatives = {
+      {.X_WO = ExamplePose(), .semi_axes = {0.03, 0.03, 0.1}, .epsilon = {0.1, 0.2}}};
+  pose.parts = {{.X_WO = ExamplePose(), .semi_axes = {0.02, 0.03, 0.1}, .taper = {0.5, 0}},
+                {.X_WO = Pose::Identity(), .semi_axes = {0.01, 0.02, 0.03}}};
   pose.grasps = {{.X_WG = ExamplePose(), .opening_m = 0.08, .score = 0.9f}};
   pose.fit_ms = 1.5f;
   return pose;
@@ -53,6 +57,7 @@ Frame ExampleFrame() {
 Scene ExampleScene() {
   Scene scene{
       .utime = 1, .seq = 2, .frame_seq = 3, .source = "example", .width = 640, .height = 480};
+  scene.intrinsics = {600, 610, 330, 250};
   scene.has_table = true;
   scene.X_WC = ExamplePose();
   scene.table_W = {{-0.5, 0.2}, {0.5, 0.2}, {0, 1}};
@@ -67,6 +72,9 @@ Scene ExampleScene() {
     object.extent_W = {0.06, 0.07, 0.2};
     object.n_points = 1234;
     object.points_C = {{0.1f, 0.2f, 0.9f}, {0.11f, 0.2f, 0.9f}, {0.1f, 0.1f, 0.95f}};
+    object.rim_C = {{{0.1f, 0.2f, 0.91f}, Beyond::kFarther},
+                    {{0.12f, 0.2f, 0.9f}, Beyond::kNearer},
+                    {{0.1f, 0.11f, 0.95f}, Beyond::kImageBorder}};
     object.outline_px = {{100, 100}, {120, 100}, {110, 160}};
     scene.objects.push_back(object);
   }

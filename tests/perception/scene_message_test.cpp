@@ -49,6 +49,7 @@ TEST(SceneMessage, TellsWhereObjectsAre) {
     EXPECT_GE(object.outline_px.size(), 4u);
     EXPECT_LE(object.outline_px.size(), 64u);
     EXPECT_GT(TwiceArea(object.outline_px), 0) << "clockwise as seen";
+    EXPECT_EQ(object.rim_C.size(), 96u);
     for (const auto& [u, v] : object.outline_px) {
       EXPECT_TRUE(u >= 0 && u < image.width && v >= 0 && v < image.height);
     }
@@ -74,6 +75,38 @@ TEST(SceneMessage, WithoutATableIsValidToo) {
   EXPECT_TRUE(Codec<msg::Scene>::Encode(scene));
 }
 
+/// The object whose visible points are around (x, y) of W.
+const msg::SceneObject& ObjectAt(const msg::Scene& scene, double x, double y) {
+  return *std::min_element(scene.objects.begin(), scene.objects.end(),
+                           [&](const auto& a, const auto& b) {
+                             const Eigen::Vector2d at(x, y);
+                             return (a.centroid_W.template head<2>() - at).norm() <
+                                    (b.centroid_W.template head<2>() - at).norm();
+                           });
+}
+
+TEST(SceneMessage, TellsWhatLiesBeyondTheRims) {
+  BoxWorld world;  // the left box hides a part of the right one, 2.5 cm behind it
+  world.boxes = {Table(), Standing(-0.05, 0.6, 0.1, 0.05, 0.1),
+                 Standing(0.02, 0.68, 0.12, 0.06, 0.15)};
+  world.noise_m = 0.0015;
+  const RgbdImage image = world.Render();
+  Perceiver perceiver({}, nullptr);
+  const msg::Scene scene = MakeScene(image, perceiver.Perceive(image));
+  EXPECT_EQ(scene.intrinsics.fx, image.intrinsics.fx);
+  EXPECT_EQ(scene.intrinsics.cy, image.intrinsics.cy);
+  ASSERT_EQ(scene.objects.size(), 2u);
+  const msg::SceneObject &front = ObjectAt(scene, -0.05, 0.6), &back = ObjectAt(scene, 0.02, 0.68);
+  int hidden = 0;
+  for (const RimPoint& rim : back.rim_C) hidden += rim.beyond == Beyond::kNearer;
+  EXPECT_GT(hidden, 3) << "behind the other";
+  for (const RimPoint& rim : front.rim_C) {
+    const double height_m = (scene.X_WC * rim.point.cast<double>()).z();
+    EXPECT_NE(rim.beyond, Beyond::kNearer);
+    if (height_m > 0.04) EXPECT_EQ(rim.beyond, Beyond::kFarther) << height_m;
+  }
+}
+
 /// 64 objects of 40 x 40 pixels, each with `n_categories` categories.
 Perception Crowd(const RgbdImage& image, int n_categories) {
   Perception perception;
@@ -83,6 +116,7 @@ Perception Crowd(const RgbdImage& image, int n_categories) {
     const double a = i * 6.283185307 / 400;
     perception.segmentation.hull_C.emplace_back(std::cos(a), std::sin(a), 1);
   }
+  perception.segmentation.labels.assign(image.depth_m.size(), 0);
   for (int k = 0; k < 64; ++k) {
     PerceivedObject object;
     object.id = 1'000'000 + k;
@@ -90,6 +124,7 @@ Perception Crowd(const RgbdImage& image, int n_categories) {
     for (int v = 0; v < 40; ++v) {
       for (int u = 0; u < 40; ++u) {
         object.shape.pixels.push_back(image.Index(k % 8 * 40 + u, k / 8 * 40 + v));
+        perception.segmentation.labels[object.shape.pixels.back()] = static_cast<uint16_t>(k + 1);
       }
     }
     for (int c = 0; c < n_categories; ++c) {
@@ -117,7 +152,10 @@ TEST(SceneMessage, OfSixtyFourObjectsFitsOneDatagram) {
     ASSERT_TRUE(bytes) << bytes.error().message;
     EXPECT_LE(bytes->size(), msg::kMaxDatagram);
     EXPECT_EQ(scene.objects.size(), 64u);
-    for (const auto& object : scene.objects) EXPECT_GE(object.points_C.size(), 20u);
+    for (const auto& object : scene.objects) {
+      EXPECT_GE(object.points_C.size(), 20u);
+      if (n_categories == 0) EXPECT_GE(object.rim_C.size(), 16u);
+    }
   }
 }
 

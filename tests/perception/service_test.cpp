@@ -87,6 +87,8 @@ TEST_F(ServiceTest, AFrameInGivesASceneOut) {
   EXPECT_EQ(scene.seq, 1);
   EXPECT_EQ(scene.source, "test");
   EXPECT_EQ(scene.width, 320);
+  EXPECT_EQ(scene.intrinsics.fx, ThreeBoxes().Render().intrinsics.fx);
+  for (const auto& object : scene.objects) EXPECT_FALSE(object.rim_C.empty());
   EXPECT_GT(scene.segmentation_ms, 0);
   EXPECT_EQ(service_->state(), "3 objects");
 }

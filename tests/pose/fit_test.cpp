@@ -1,4 +1,4 @@
-// Both fitting methods on known shapes, noise, degenerate and hostile clouds.
+// All fitting methods on known shapes, noise, degenerate and hostile clouds.
 #include "services/pose/fit.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,8 @@ class FitTest : public ::testing::TestWithParam<Method> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, FitTest,
-                         ::testing::Values(Method::kAdaptive, Method::kMultiscale),
+                         ::testing::Values(Method::kAdaptive, Method::kMultiscale, Method::kClassic,
+                                           Method::kHierarchical),
                          [](const auto& instance) { return std::string(Name(instance.param)); });
 
 void ExpectFinite(const FitResult& result) {
@@ -224,10 +225,12 @@ TEST(Adaptive, AdmitsThatItDoesNotSeeTheFoot) {
 TEST(Methods, AreKnownByNameAndOthersRefusedWithTheList) {
   EXPECT_EQ(*ParseMethod("adaptive"), Method::kAdaptive);
   EXPECT_EQ(*ParseMethod("multiscale"), Method::kMultiscale);
-  const auto unknown = ParseMethod("classic");
+  EXPECT_EQ(*ParseMethod("classic"), Method::kClassic);
+  EXPECT_EQ(*ParseMethod("hierarchical"), Method::kHierarchical);
+  const auto unknown = ParseMethod("guess");
   ASSERT_FALSE(unknown);
-  EXPECT_THAT(unknown.error().message, HasSubstr("'classic'"));
-  EXPECT_THAT(unknown.error().message, HasSubstr("adaptive, multiscale"));
+  EXPECT_THAT(unknown.error().message, HasSubstr("'guess'"));
+  EXPECT_THAT(unknown.error().message, HasSubstr("adaptive, multiscale, classic, hierarchical"));
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
 // The offline mode as users run it: lists in, JSON and pictures out, one clear line on bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "services/base/ply_file.h"
 #include "services/pose/pose_files.h"
+#include "tests/pose/program.h"
 #include "tests/pose/views.h"
 
 namespace beckon::pose {
@@ -19,46 +18,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-class OfflineTest : public ::testing::Test {
+class OfflineTest : public ProgramTest {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    dir_ = fs::temp_directory_path() /
-           ("beckon_pose_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    fs::create_directories(dir_);
-  }
-  void TearDown() override { fs::remove_all(dir_); }
-
-  std::string Path(const std::string& name) const { return (dir_ / name).string(); }
-  std::string Read(const std::string& name) const {
-    std::ifstream file(Path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  void Write(const std::string& name, const std::string& text) const {
-    std::ofstream(Path(name), std::ios::binary) << text;
-  }
   void WriteCloud(const std::string& name, const std::vector<Eigen::Vector3f>& points) const {
     std::ostringstream text;
     for (const auto& p : points) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
     Write(name, text.str());
   }
 
-  // Exit code; what it printed on standard error is in `error_`.
-  int Run(const std::string& arguments) {
-    const std::string command =
-        std::string(BECKON_POSE_PROGRAM) + " " + arguments + " >/dev/null 2>" + Path("stderr");
-    const int status = std::system(command.c_str());
-    error_ = Read("stderr");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  void ExpectRefusal(const std::string& arguments, const std::string& says) {
-    EXPECT_EQ(Run(arguments), 2) << arguments;
-    EXPECT_THAT(error_, HasSubstr(says));
-    EXPECT_EQ(std::count(error_.begin(), error_.end(), '\n'), 1) << error_;
-  }
-
-  fs::path dir_;
-  std::string error_;
   const TableView box_ =
       ViewOnTable(MakeShape({0.03, 0.04, 0.06}, 0.1, 0.1, {0, 0, 0.06}, {0, 0, 0.5}), 2000, 0.001);
   const TableView can_ =
@@ -79,7 +46,7 @@ TEST_F(OfflineTest, FitsAListInItsOrder) {
   Write("list.jsonl",
         ListLine("clouds/can.xyz", can_.table_C) + "\n" + ListLine("clouds/box.xyz", box_.table_C));
   ASSERT_EQ(Run("--list " + Path("list.jsonl") + " --json " + Path("out.json") + " --picture " +
-                Path("out.png") + " --repeat 3"),
+                Path("out.png") + " --mesh " + Path("out.ply") + " --repeat 3"),
             0)
       << error_;
   const json poses = json::parse(Read("out.json"));
@@ -104,6 +71,11 @@ TEST_F(OfflineTest, FitsAListInItsOrder) {
     EXPECT_GT(pose["grasps"][0]["opening_m"].get<double>(), 0);
   }
   EXPECT_EQ(Read("out.png").substr(1, 3), "PNG");
+  const auto mesh = cloud::ParsePly(Read("out.ply"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  ASSERT_EQ(mesh->points.size() % 2, 0u);
+  const Eigen::Vector3d pole = mesh->points[0].cast<double>();  // the can's, the first in the list
+  EXPECT_LT((pole - can_.shape_C.X_FO.translation()).norm(), 0.07);
 }
 
 TEST_F(OfflineTest, FitsInputsWithAndWithoutAPlane) {
@@ -133,7 +105,7 @@ TEST_F(OfflineTest, RefusesBadInputInOneLine) {
   const std::string box = "--input " + Path("box.xyz");
   ExpectRefusal("--input " + Path("absent.xyz") + json_out, "absent.xyz");
   ExpectRefusal("--list " + Path("absent.jsonl") + json_out, "absent.jsonl");
-  ExpectRefusal(box + json_out + " --method classic", "adaptive, multiscale");
+  ExpectRefusal(box + json_out + " --method guess", "adaptive, multiscale");
   ExpectRefusal(box + json_out + " --plane 0,0,1", "4 numbers");
   ExpectRefusal(box + json_out + " --plane 0,0,0,1", "not zero");
   ExpectRefusal(box + json_out + " --plane a,b,c,d", "found 'a'");

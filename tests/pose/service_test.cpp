@@ -74,9 +74,34 @@ TEST(SceneEstimatorTest, ReusesWhatDidNotChangeAndRefitsWhatDid) {
   scene.objects[0].id = 8;
   estimator.Estimate(scene);
   EXPECT_EQ(estimator.counts().fitted, 3);
-  scene.X_WC.translation().z() += 0.01;
+  scene.objects[0].rim_C = {{scene.objects[0].points_C[0], Beyond::kFarther}};
   estimator.Estimate(scene);
   EXPECT_EQ(estimator.counts().fitted, 4);
+  scene.objects[0].rim_C[0].beyond = Beyond::kNearer;
+  estimator.Estimate(scene);
+  EXPECT_EQ(estimator.counts().fitted, 5);
+  scene.X_WC.translation().z() += 0.01;
+  estimator.Estimate(scene);
+  EXPECT_EQ(estimator.counts().fitted, 6);
+}
+
+TEST(SceneEstimatorTest, GraspsAnewWhenANeighbourComes) {
+  SceneEstimator estimator{PoseConfig{}};
+  msg::Scene scene = MakeScene(Box(), 1);
+  const msg::Poses alone = estimator.Estimate(scene);
+  msg::SceneObject neighbour = scene.objects[0];
+  neighbour.id = 8;
+  const Eigen::Vector3d aside_W = alone.poses[0].X_WO.linear().col(0) * 0.075;  // 15 mm between
+  const Eigen::Vector3f aside_C = (scene.X_WC.linear().transpose() * aside_W).cast<float>();
+  for (auto& p : neighbour.points_C) p += aside_C;
+  scene.objects.push_back(neighbour);
+  const msg::Poses together = estimator.Estimate(scene);
+  EXPECT_EQ(estimator.counts().fitted, 2);
+  EXPECT_EQ(estimator.counts().reused, 1);
+  EXPECT_EQ(together.poses[0].X_WO.matrix(), alone.poses[0].X_WO.matrix());
+  EXPECT_LT(together.poses[0].grasps.size(), alone.poses[0].grasps.size());
+  scene.objects.pop_back();
+  EXPECT_EQ(estimator.Estimate(scene).poses[0].grasps.size(), alone.poses[0].grasps.size());
 }
 
 TEST(SceneEstimatorTest, CountsWhatDidNotConverge) {

@@ -1,10 +1,12 @@
-// The superquadric's functions against known answers and finite differences.
+// The gauge, the distances and the support function against known answers and finite differences.
 #include "services/pose/superquadric.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include <array>
+#include <cmath>
+#include <random>
 
 #include "services/pose/fit_stage.h"
 #include "services/pose/levenberg_marquardt.h"
@@ -43,6 +45,109 @@ TEST(Gauge, IsFiniteForEveryExponentAndPoint) {
         EXPECT_TRUE(d.log_semi_axes.allFinite() && d.taper.allFinite());
       }
     }
+  }
+}
+
+// The inside-outside function as Solina & Bajcsy write it, in arithmetic wide enough for its
+// powers.
+long double WideLogGauge(const Superquadric& s, const std::array<long double, 3>& p) {
+  const long double e1 = s.epsilon[0], e2 = s.epsilon[1];
+  const auto part = [&](int i) {
+    const long double height = p[2] / s.semi_axes[2];
+    const long double taper = i < 2 ? s.taper[i] * height + 1 : 1;
+    return std::abs(p[static_cast<size_t>(i)]) / (s.semi_axes[i] * taper);
+  };
+  const long double xy = std::pow(part(0), 2 / e2) + std::pow(part(1), 2 / e2);
+  return e1 / 2 * std::log(std::pow(xy, e2 / e1) + std::pow(part(2), 2 / e1));
+}
+
+// Points with coordinates of 1e-9 to 1e3 semi-axes, each of its own size.
+class WidePoints {
+ public:
+  Vector3d Next(const Superquadric& s) {
+    Vector3d p;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = std::pow(10, exponent_(engine_)) * s.semi_axes[i] * (engine_() % 2 == 0 ? 1 : -1);
+    }
+    return p;
+  }
+
+ private:
+  std::mt19937 engine_{11};
+  std::uniform_real_distribution<double> exponent_{-9, 3};
+};
+
+TEST(Gauge, AgreesWithTheInsideOutsideFunctionInWideArithmetic) {
+  WidePoints points;
+  for (double e1 : kExponents) {
+    for (double e2 : kExponents) {
+      const Superquadric s = MakeShape({0.01, 0.05, 0.12}, e1, e2);
+      for (int i = 0; i < 50; ++i) {
+        const Vector3d p = points.Next(s);
+        const auto expected = static_cast<double>(WideLogGauge(s, {p[0], p[1], p[2]}));
+        EXPECT_NEAR(DifferentiateGauge(s, p).log_g, expected, 1e-13 * (1 + std::abs(expected)))
+            << "e " << e1 << ' ' << e2 << " at " << p.transpose();
+      }
+    }
+  }
+}
+
+// Central differences in wide arithmetic, with a step of a millionth of each coordinate.
+Vector3d WideGradient(const Superquadric& s, const Vector3d& p) {
+  Vector3d gradient;
+  for (int i = 0; i < 3; ++i) {
+    std::array<long double, 3> more{p[0], p[1], p[2]}, less = more;
+    const long double step = 1e-6L * p[i];
+    more[static_cast<size_t>(i)] += step;
+    less[static_cast<size_t>(i)] -= step;
+    gradient[i] = static_cast<double>((WideLogGauge(s, more) - WideLogGauge(s, less)) / (2 * step));
+  }
+  return gradient;
+}
+
+TEST(Gauge, GradientKeepsTheDigitsOfItsSmallComponents) {
+  WidePoints points;
+  for (double e1 : kExponents) {
+    for (double e2 : kExponents) {
+      const Superquadric s = MakeShape({0.01, 0.05, 0.12}, e1, e2);
+      for (int i = 0; i < 50; ++i) {
+        const Vector3d p = points.Next(s);
+        const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
+        for (int k = 0; k < 3; ++k) {
+          // What the differences themselves can tell: log g to 1e-18 over a step of 1e-6 p.
+          const double resolution = 1e-10 / std::abs(p[k]);
+          EXPECT_NEAR(gradient[k], expected[k], 1e-6 * std::abs(expected[k]) + resolution)
+              << "e " << e1 << ' ' << e2 << " at " << p.transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(Gauge, GradientOfATaperedShapeAgreesWithFiniteDifferences) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (double e1 : kExponents) {
+    for (double e2 : kExponents) {
+      Superquadric s = MakeShape({0.03, 0.05, 0.12}, e1, e2);
+      s.taper = {0.6, -0.4};
+      for (int i = 0; i < 20; ++i) {
+        const Vector3d p = Vector3d(unit(engine), unit(engine), unit(engine)) * 0.12;
+        const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
+        EXPECT_LT((gradient - expected).norm(), 1e-6 * expected.norm())
+            << "e " << e1 << ' ' << e2 << " at " << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(Gauge, SlopeAcrossAPlaneOfSymmetryIsZero) {
+  for (double e : kExponents) {
+    const Superquadric s = MakeShape({0.03, 0.05, 0.08}, e, e);
+    EXPECT_EQ(NormalAt(s, {0.03, 0, 0}), Vector3d::UnitX()) << e;
+    EXPECT_EQ(NormalAt(s, {0, -0.05, 0}), -Vector3d::UnitY()) << e;
+    EXPECT_EQ(NormalAt(s, {0, 0, 0.08}), Vector3d::UnitZ()) << e;
+    EXPECT_EQ(NormalAt(s, {0.02, -0.04, 0}).z(), 0) << e;
   }
 }
 
@@ -100,6 +205,84 @@ TEST(Support, TouchesTheSurfaceAndBoundsIt) {
   }
 }
 
+TEST(Support, IsExactForAllExponentsAndDirections) {
+  WidePoints directions;
+  for (double e1 : kExponents) {
+    for (double e2 : kExponents) {
+      const Superquadric s = MakeShape({0.03, 0.05, 0.08}, e1, e2);
+      for (int i = 0; i < 50; ++i) {
+        const Vector3d n = directions.Next(s).normalized();
+        const SupportDerivatives d = DifferentiateSupport(s, n);
+        EXPECT_NEAR(n.dot(d.point), d.h, 1e-14);
+        EXPECT_NEAR(Gauge(s, d.point), 1, 1e-8) << "e " << e1 << ' ' << e2;
+      }
+    }
+  }
+}
+
+TEST(Support, AlongAnAxisIsTheMiddleOfTheFace) {
+  for (double e : {0.05, 0.5, 1.0, 1.9}) {
+    const Superquadric s = MakeShape({0.03, 0.05, 0.08}, e, e);
+    for (int i = 0; i < 3; ++i) {
+      const SupportDerivatives d = DifferentiateSupport(s, Vector3d::Unit(i));
+      EXPECT_NEAR(d.h, s.semi_axes[i], 1e-15);
+      EXPECT_LT((d.point - s.semi_axes[i] * Vector3d::Unit(i)).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(Support, OfAnOctahedronIsThatOfItsVertices) {
+  const Superquadric s = MakeShape({0.03, 0.05, 0.08}, 2, 2);
+  for (const Vector3d& n : {Vector3d(1, 2, 3), Vector3d(5, -3, 1), Vector3d(0, 1, -0.1)}) {
+    const double expected = n.cwiseAbs().cwiseProduct(s.semi_axes).maxCoeff();
+    EXPECT_NEAR(DifferentiateSupport(s, n).h, expected, 1e-9);
+  }
+  // Two vertices at once: any point of the edge between them supports.
+  const Vector3d edge(1 / 0.03, 1 / 0.05, 0);
+  EXPECT_NEAR(DifferentiateSupport(s, edge).h, 1, 1e-8);
+}
+
+TEST(HalfWidth, BoundsATaperedShape) {
+  Superquadric s = MakeShape({0.03, 0.05, 0.08}, 0.3, 0.6, {0.1, 0.2, 0.3}, {0.5, -0.3, 0.8});
+  s.taper = {0.7, -0.5};
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(1, 2, -1), Vector3d(0, 1, 3)}) {
+    const Vector3d n = axis.normalized();
+    double most = 0;
+    for (const auto& p : SampleSurface(s, 2000)) {
+      most = std::max(most, std::abs(n.dot(p - s.X_FO.translation())));
+    }
+    EXPECT_LE(most, HalfWidth(s, n));
+    EXPECT_GT(most, 0.5 * HalfWidth(s, n));
+  }
+}
+
+TEST(RadialDistance, IsExactAlongTheRayAlsoForTaperedShapes) {
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> log_factor(-6, 6);
+  for (double e1 : kExponents) {
+    for (double e2 : kExponents) {
+      Superquadric s = MakeShape({0.03, 0.05, 0.08}, e1, e2, {1, 2, 3}, {0.3, 0.2, -0.9});
+      for (const Eigen::Vector2d& taper :
+           {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.3, -0.2), Eigen::Vector2d(-0.99, 0.99)}) {
+        s.taper = taper;
+        for (const auto& p : SampleSurface(s, 40)) {
+          const Vector3d arm = p - s.X_FO.translation();
+          const double factor = std::exp(log_factor(engine));
+          EXPECT_NEAR(RadialDistance(s, s.X_FO.translation() + factor * arm),
+                      std::abs(factor - 1) * arm.norm(), 1e-8 * (1 + factor))
+              << "e " << e1 << ' ' << e2 << " taper " << taper.transpose() << " at "
+              << (s.X_FO.inverse() * p).transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(RadialDistance, OfTheCentreIsTheSmallestSemiAxis) {
+  const Superquadric s = MakeShape({0.03, 0.05, 0.08}, 0.1, 1, {1, 2, 3});
+  EXPECT_EQ(RadialDistance(s, {1, 2, 3}), 0.03);
+}
+
 TEST(Support, DerivativesAgreeWithFiniteDifferences) {
   constexpr double kStep = 1e-6;
   const Superquadric s = MakeShape({0.03, 0.05, 0.08}, 0.4, 0.9);
@@ -119,60 +302,6 @@ TEST(Support, DerivativesAgreeWithFiniteDifferences) {
     const double by_e = (DifferentiateSupport(more, n).h - DifferentiateSupport(less, n).h);
     EXPECT_NEAR(d.epsilon[i], by_e / (2 * kStep), 1e-7);
   }
-}
-
-TEST(Surface, SamplesLieOnItWithAndWithoutTaper) {
-  for (double e1 : {0.05, 0.3, 1.0, 2.0}) {
-    for (double e2 : {0.05, 0.3, 1.0, 2.0}) {
-      Superquadric s = MakeShape({0.02, 0.06, 0.11}, e1, e2, {1, 2, 3}, {0.3, 0.2, -0.9});
-      for (const Eigen::Vector2d& taper : {Eigen::Vector2d(0, 0), Eigen::Vector2d(0.3, -0.2)}) {
-        s.taper = taper;
-        const auto points = SampleSurface(s, 200);
-        ASSERT_EQ(points.size(), 200u);
-        for (const auto& p : points) EXPECT_NEAR(Gauge(s, s.X_FO.inverse() * p), 1, 1e-6);
-      }
-    }
-  }
-}
-
-TEST(Surface, SamplesSpreadOverASphereEvenly) {
-  int upper = 0, eighth = 0;
-  for (const auto& p : SampleSurface(MakeShape(Vector3d::Ones(), 1, 1), 800)) {
-    upper += p.z() > 0;
-    eighth += p.x() > 0 && p.y() > 0 && p.z() > 0;
-  }
-  EXPECT_NEAR(upper, 400, 4);
-  EXPECT_NEAR(eighth, 100, 6);
-}
-
-TEST(Volume, HasItsKnownAnswers) {
-  const Vector3d a(0.02, 0.03, 0.05);
-  EXPECT_NEAR(Volume(MakeShape(a, 1, 1)), 4.0 / 3 * std::numbers::pi * a.prod(), 1e-12);
-  EXPECT_NEAR(Volume(MakeShape(a, 0.02, 0.02)), 8 * a.prod(), 0.001 * a.prod() * 8);
-  EXPECT_NEAR(Volume(MakeShape(a, 0.02, 1)), 2 * std::numbers::pi * a.prod(), 0.001 * a.prod() * 8);
-  EXPECT_NEAR(Volume(MakeShape(a, 2, 2)), 4.0 / 3 * a.prod(), 1e-12);  // octahedron
-}
-
-TEST(Volume, OfATaperedShapeAgreesWithCounting) {
-  Superquadric s = MakeShape({1, 1, 1}, 0.5, 0.8);
-  s.taper = {0.5, 0.4};
-  std::mt19937 engine(3);
-  std::uniform_real_distribution<double> unit(-1.5, 1.5);
-  int inside = 0;
-  constexpr int kCount = 200000;
-  for (int i = 0; i < kCount; ++i) {
-    const Vector3d p(unit(engine), unit(engine), unit(engine));
-    inside += std::abs(p.z()) < 1 && Gauge(s, p) < 1;
-  }
-  EXPECT_NEAR(Volume(s), 27.0 * inside / kCount, 0.05);
-}
-
-TEST(ShapeDifference, SeesShapesNotParameters) {
-  const Superquadric box = MakeShape({0.03, 0.05, 0.08}, 0.1, 0.1);
-  const Superquadric same =
-      MakeShape({0.05, 0.03, 0.08}, 0.1, 0.1, Vector3d::Zero(), {0, 0, std::numbers::pi / 2});
-  EXPECT_LT(ShapeDifference(box, same), 1e-6);
-  EXPECT_GT(ShapeDifference(box, MakeShape({0.03, 0.05, 0.05}, 0.1, 0.1)), 0.003);
 }
 
 }  // namespace

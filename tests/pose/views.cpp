@@ -26,14 +26,72 @@ std::vector<Eigen::Vector3f> WholeSurface(const Superquadric& shape, int count, 
   return points;
 }
 
-TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m, unsigned seed) {
+namespace {
+
+/// 0.8 m from W's origin, 40 degrees above the table.
+Pose CameraAtTable() {
   const double pitch = 40 * M_PI / 180, distance = 0.8;
   const Eigen::Vector3d forward(0, std::cos(pitch), -std::sin(pitch)), right(1, 0, 0);
   Pose X_WC = Pose::Identity();
   X_WC.linear() << right, forward.cross(right), forward;
   X_WC.translation() = -distance * forward;
-  const Pose X_CW = X_WC.inverse();
+  return X_WC;
+}
 
+/// The depth at which a ray (z = 1) from the origin enters the shape, to 1e-6 m; 0 where it does
+/// not.
+double EntryDepth(const Superquadric& shape_C, const Eigen::Vector3d& ray) {
+  const Pose X_OC = shape_C.X_FO.inverse();
+  const double middle_m = shape_C.X_FO.translation().dot(ray) / ray.squaredNorm();
+  const double reach_m = shape_C.semi_axes.norm();
+  if ((middle_m * ray - shape_C.X_FO.translation()).norm() > reach_m) return 0;
+  const auto inside = [&](double depth_m) { return Gauge(shape_C, X_OC * (depth_m * ray)) < 1; };
+  double outside_m = middle_m - reach_m;
+  for (double step_m = 0.002; outside_m < middle_m + reach_m; outside_m += step_m) {
+    if (!inside(outside_m + step_m)) continue;
+    while (step_m > 1e-6) {
+      step_m /= 2;
+      if (!inside(outside_m + step_m)) outside_m += step_m;
+    }
+    return outside_m;
+  }
+  return 0;
+}
+
+}  // namespace
+
+TableScene SceneOnTable(const std::vector<Superquadric>& shapes_W, double sigma_m, unsigned seed) {
+  const Pose X_WC = CameraAtTable(), X_CW = X_WC.inverse();
+  TableScene scene;
+  scene.table_C = {X_CW.linear().col(2), X_WC.translation().z()};
+  for (Superquadric shape : shapes_W) {
+    shape.X_FO = X_CW * shape.X_FO;
+    scene.shapes_C.push_back(shape);
+  }
+  scene.image.width = 320;
+  scene.image.height = 240;
+  scene.image.intrinsics = {262.5, 262.5, 159.5, 119.5};
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> noise(0, sigma_m);
+  for (int v = 0; v < scene.image.height; ++v) {
+    for (int u = 0; u < scene.image.width; ++u) {
+      const Eigen::Vector3d ray = scene.image.intrinsics.Unproject(u, v, 1);
+      double nearest_m = -scene.table_C.offset_m / scene.table_C.normal.dot(ray);
+      size_t label = 0;
+      for (size_t k = 0; k < scene.shapes_C.size(); ++k) {
+        const double depth_m = EntryDepth(scene.shapes_C[k], ray);
+        if (depth_m > 0 && depth_m < nearest_m) nearest_m = depth_m, label = k + 1;
+      }
+      scene.image.depth_m.push_back(
+          static_cast<float>(nearest_m + (sigma_m > 0 ? noise(engine) : 0)));
+      scene.labels.push_back(static_cast<uint16_t>(label));
+    }
+  }
+  return scene;
+}
+
+TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m, unsigned seed) {
+  const Pose X_WC = CameraAtTable(), X_CW = X_WC.inverse();
   TableView view;
   view.shape_C = shape_W;
   view.shape_C.X_FO = X_CW * shape_W.X_FO;

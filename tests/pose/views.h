@@ -4,6 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "services/base/rgbd.h"
+#include "services/pose/solid.h"
 #include "services/pose/surface.h"
 
 namespace beckon::pose {
@@ -25,5 +27,15 @@ struct TableView {
 /// `shape_W`: standing on z = 0 with its centre above the origin; its pose is given in W.
 TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m = 0,
                       unsigned seed = 1);
+
+/// What that camera sees of several shapes on its table: an image with a label for each.
+struct TableScene {
+  RgbdImage image;
+  std::vector<uint16_t> labels;  // row-major; k = the k-th of the shapes, 0 = table
+  std::vector<Superquadric> shapes_C;
+  Plane table_C;
+};
+TableScene SceneOnTable(const std::vector<Superquadric>& shapes_W, double sigma_m = 0,
+                        unsigned seed = 1);
 
 }  // namespace beckon::pose
