@@ -42,7 +42,8 @@ class PictureTest : public ::testing::Test {
     Portrait portrait{.title = "box.xyz", .points_F = box_.points_C, .table_F = box_.table_C};
     portrait.estimate.fit.shape = box_.shape_C;
     portrait.estimate.fit.converged = true;
-    portrait.estimate.grasps = ProposeGrasps(box_.shape_C, box_.table_C, gripper_);
+    portrait.estimate.grasps =
+        ProposeGrasps(portrait.estimate.fit, box_.points_C, box_.table_C, {}, gripper_);
     return portrait;
   }
 

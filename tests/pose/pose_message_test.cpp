@@ -87,12 +87,17 @@ TEST(FitDatagram, ShortensWhatCanBeMissedUntilItFits) {
     EXPECT_GT(bytes->size(), 0.75 * msg::kMaxDatagram) << "no more than had to go";
     EXPECT_EQ(poses.poses.size(), 64u);
     for (const auto& pose : poses.poses) {
-      if (reason == 0) EXPECT_GE(pose.grasps.size(), 4u);
+      if (reason == 0) {
+        EXPECT_GE(pose.grasps.size(), 4u);
+      }
       EXPECT_TRUE(pose.parts.empty() || pose.parts.size() == parts);
-      if (!pose.grasps.empty()) EXPECT_EQ(pose.grasps[0].score, 1) << "the best stay";
+      if (!pose.grasps.empty()) {
+        EXPECT_EQ(pose.grasps[0].score, 1) << "the best stay";
+      }
     }
-    if (parts == 0)
+    if (parts == 0) {
       EXPECT_GE(poses.poses[63].alternatives.size(), std::min<size_t>(alternatives, 3));
+    }
   }
 }
 
