@@ -65,7 +65,7 @@ struct Candidate {
   LmResult result;
   size_t view;
   double cost;
-  double points_cost;    // m^2
+  double points_cost, outline_cost;  // m^2
   double outline_share;  // what the outline's weight is to be multiplied by
 };
 
@@ -136,7 +136,7 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
     return Candidate{result, view,
                      cost.points + cost.support + cost.tilt + cost.volume + views[view].charge +
                          config.outline_trust_m2 * std::log1p(outline),
-                     cost.points, 1 / (1 + outline)};
+                     cost.points, cost.outline, 1 / (1 + outline)};
   };
   const auto cheaper = [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; };
   for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start, 1));
@@ -175,10 +175,11 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
                                kAboutAsGood * MeanRadialDistance(best[0].result.shape, spread) &&
                            ShapeDifference(best[0].result.shape, best[1].result.shape) > kOtherShape_m;
   // The cost is a mean of squared distances; neighbours err together, so that hundreds of points do not know
-  // as much as if they were independent.
+  // as much as if they were independent. How badly the outline fits tells how much else is not in the model.
+  const double unexplained = 1 + best[0].outline_cost / config.outline_clean_m2;
   outcome.information =
       ParameterMatrix(best[0].result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
-      (config.witnesses / std::max(best[0].points_cost, 4e-8));
+      (config.witnesses / (unexplained * unexplained * std::max(best[0].points_cost, 4e-8)));
   outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, spread, scene, config.unseen_foot_m);
   return outcome;
 }

@@ -27,7 +27,7 @@ struct AdaptiveConfig {
   // What the table adds.
   double support_weight = 1.0;     // the lowest point of the shape lies on the table
   double support_noise_m = 0.003;  // scale of its Cauchy weight
-  double tilt_weight = 5e-4;       // m^2/rad^2: one axis is vertical
+  double tilt_weight = 1e-4;       // m^2/rad^2: one axis is vertical
   // Where the shape should be seen this much lower than it is, it may stand on another: ambiguous.
   double unseen_foot_m = 0.03;
   // What the viewpoint adds: planes through it that touch the visible outline touch the shape.
@@ -38,8 +38,9 @@ struct AdaptiveConfig {
   // Outlines that may be cut off along a straight line.
   double outline_trust_m2 = 4e-7;
   double runner_up = 1.2;         // the second best start is refined if it costs less than this times the best
-  double fine_tolerance = 1e-4;
-  double witnesses = 30;          // independent points that the covariance counts
+  double fine_tolerance = 1e-3;
+  double witnesses = 400;         // independent points that the covariance counts
+  double outline_clean_m2 = 1e-7; // cost of an outline below which the model explains what is seen
   bool cut_hypotheses = true;
   double nat_m2 = 6e-9;     // what a factor of e in probability weighs
   double cut_pull_m2 = 1e-7; // weight of how far it goes on

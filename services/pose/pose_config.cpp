@@ -31,6 +31,7 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("runner_up", c.runner_up, 1, 1000);
   table.Get("fine_tolerance", c.fine_tolerance, 1e-9, 1);
   table.Get("witnesses", c.witnesses, 1, 1e6);
+  table.Get("outline_clean_m2", c.outline_clean_m2, 1e-12, 1);
   table.Get("cut_pull_m2", c.cut_pull_m2, 0, 1);
   table.Get("cut_nats", c.cut_nats, 0, 1e6);
   table.Get("cut_beyond", c.cut_beyond, 0, 10);
