@@ -1,0 +1,163 @@
+// Several superquadrics for an object that one does not describe.
+#include "services/pose/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "services/pose/part_candidates.h"
+#include "services/pose/part_model.h"
+#include "services/pose/silhouette.h"
+
+namespace beckon::pose {
+namespace {
+
+constexpr int kPartParameters = 11;
+constexpr double kForeign = 3;  // a point is foreign from so many times the distance at which it sticks out
+
+// Depth noise of a structured-light camera at a distance (Nguyen, Izadi & Lovell 2012), m.
+double CameraNoise(double distance_m) {
+  const double beyond = distance_m - 0.4;
+  return 0.0012 + 0.0019 * beyond * beyond;
+}
+
+// At most a block of the points, one from each stretch of the cloud, at a place that does not repeat from row
+// to row of an image.
+PointBlock Sample(const PointList& points) {
+  PointBlock block;
+  const double count = static_cast<double>(std::min<size_t>(points.size(), kBlockSize));
+  const double stretch = static_cast<double>(points.size()) / count;
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    const double turn = i / std::numbers::phi;
+    const size_t k = static_cast<size_t>((i + turn - std::floor(turn)) * stretch);
+    block.Add(points[std::min(k, points.size() - 1)], 1 / count);
+  }
+  block.Pad();
+  return block;
+}
+
+double MedianDistance(const PartModel& model, int size) {
+  Distances magnitudes;
+  for (int i = 0; i < size; ++i) magnitudes[static_cast<size_t>(i)] = std::abs(model.DistanceOf(i));
+  const auto middle = magnitudes.begin() + size / 2;
+  std::nth_element(magnitudes.begin(), middle, magnitudes.begin() + size);
+  return static_cast<double>(*middle);
+}
+
+// Schwarz's criterion in nats, positive where the larger model is worth its parameters.
+double Gain(const PartModel& now, const PartModel& more, const PartsView& view,
+            const PartsConfig& config) {
+  const double n = std::min(view.points_F.size, config.witnesses);
+  const double parts = static_cast<double>(more.parts.size() - now.parts.size());
+  return 0.5 * n * std::log(now.variance_m2 / more.variance_m2) -
+         0.5 * kPartParameters * parts * std::log(n);
+}
+
+// Whether the points of a part show a body of its own, outside the main one and turned to the camera.
+bool IsBody(const PartModel& model, size_t part, const PartsView& view, const PartsConfig& config) {
+  constexpr double kMost = 0.8;
+  const Superquadric& shape = model.parts[part];
+  PointBlock own;
+  int outside = 0, facing = 0;
+  for (int i = 0; i < view.points_F.size; ++i) {
+    const double d = static_cast<double>(model.distances_m[part][static_cast<size_t>(i)]);
+    if (model.Nearest(i) != part || std::abs(d) > view.outside_m) continue;
+    const Eigen::Vector3d p = view.points_F.at(i);
+    own.Add(p, 1);
+    outside +=
+        static_cast<double>(model.distances_m[0][static_cast<size_t>(i)]) > 0.5 * view.outside_m;
+    const Eigen::Vector3d normal = shape.X_FO.linear() * NormalAt(shape, shape.X_FO.inverse() * p);
+    facing += normal.dot(p - view.scene.viewpoint) < 0;
+  }
+  if (own.size < FewestPoints(view, config)) return false;
+  const std::vector<bool> through =
+      SeenThrough(model.parts[0], view.scene.viewpoint, own, view.outside_m);
+  const auto unseen = std::count(through.begin(), through.end(), false);
+  const double enough = kMost * own.size;
+  return outside >= enough && facing >= enough && static_cast<double>(unseen) >= enough;
+}
+
+class Search {
+ public:
+  Search(const PointList& points, const AdaptiveConfig& fit, const PartsConfig& config,
+         PartsView& view)
+      : points_(points), fit_(fit), config_(config), view_(view), foreign_m_(kForeign * view.outside_m) {}
+
+  // The best model with a part more than `now` that pays, or one without parts.
+  PartModel Extend(const PartModel& now, std::optional<double> neck_height) {
+    std::vector<std::vector<Superquadric>> candidates;
+    if (neck_height) candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
+    if (const auto part = ProtrudingPart(now, view_, fit_, config_)) {
+      candidates.push_back(now.parts);
+      candidates.back().push_back(*part);
+    }
+    PartModel best;
+    for (const auto& parts : candidates) {
+      if (parts.size() <= now.parts.size()) continue;
+      PartModel model = Alternate(parts);
+      if (Gain(now, model, view_, config_) <= 0 ||
+          (!best.parts.empty() && best.variance_m2 <= model.variance_m2)) {
+        continue;
+      }
+      bool bodies = true;
+      for (size_t part = 1; part < model.parts.size(); ++part) {
+        bodies = bodies && IsBody(model, part, view_, config_);
+      }
+      if (bodies) best = std::move(model);
+    }
+    return best;
+  }
+
+  PartModel Start(const Superquadric& single) const { return Judge({single}, view_, foreign_m_); }
+
+ private:
+  PartModel Alternate(const std::vector<Superquadric>& parts) {
+    if (view_.rays_F.size == 0) {
+      view_.rays_F =
+          TraceSilhouette(points_, {}, view_.scene.viewpoint, view_.scene.table,
+                          {fit_.outline_rays, fit_.pixel_rad, fit_.table_margin_m}).rays_F;
+    }
+    PartModel model = Judge(parts, view_, foreign_m_);
+    for (int round = 0; round < config_.rounds; ++round) {
+      PartModel refitted = Judge(
+          Refit(model, view_, fit_, config_.iterations, config_.min_semi_axis_m), view_, foreign_m_);
+      if (refitted.variance_m2 < model.variance_m2) model = std::move(refitted);
+    }
+    return model;
+  }
+
+  const PointList& points_;
+  const AdaptiveConfig& fit_;
+  const PartsConfig& config_;
+  PartsView& view_;
+  const double foreign_m_;
+};
+
+}  // namespace
+
+std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
+                                    const Eigen::Vector3d& viewpoint_F, const Superquadric& single,
+                                    const AdaptiveConfig& fit, const PartsConfig& config) {
+  if (config.most_parts < 2 || points_F.size() < 2 * static_cast<size_t>(config.min_points)) return {};
+  PartsView view;
+  view.points_F = Sample(points_F);
+  view.scene = {table_F, viewpoint_F, single.semi_axes.array().log().sum()};
+  view.up = table_F ? table_F->normal : Eigen::Vector3d(single.X_FO.linear().col(2));
+  view.noise_m = CameraNoise((single.X_FO.translation() - viewpoint_F).norm());
+  PartModel model = Judge({single}, view, 1);
+  view.outside_m = std::max({config.outside_m, config.outside_sigmas * view.noise_m,
+                             config.outside_medians * MedianDistance(model, view.points_F.size)});
+  const std::optional<double> neck_height = NeckHeight(view, config);
+  if (!neck_height && !SomethingSticksOut(model, view, config)) return {};
+
+  Search search(points_F, fit, config, view);
+  model = search.Start(single);
+  for (int parts = 1; parts < config.most_parts; ++parts) {
+    PartModel more = search.Extend(model, parts == 1 ? neck_height : std::nullopt);
+    if (more.parts.empty()) break;
+    model = std::move(more);
+  }
+  return model.parts.size() > 1 ? model.parts : std::vector<Superquadric>{};
+}
+
+}  // namespace beckon::pose
