@@ -88,23 +88,32 @@ Superquadric BoxAround(const PointBlock& points, const Eigen::Vector3d& up,
   return box;
 }
 
-// The better fit to a group of points of a box and an upright cylinder that fill it.
-Superquadric FitGroup(const PointBlock& points, const Eigen::Vector3d& from,
-                      const PartsView& view, const AdaptiveConfig& fit, const PartsConfig& config) {
+// Of a box and an upright cylinder that fill a group of points, fitted to it, that which makes the better
+// model together with the others.
+std::vector<Superquadric> WithGroup(const std::vector<Superquadric>& others, const PointBlock& points,
+                                    const PartsView& view, const AdaptiveConfig& fit,
+                                    const PartsConfig& config) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int i = 0; i < points.size; ++i) middle += points.at(i) / points.size;
-  const Superquadric box = BoxAround(points, view.up, middle - from);
+  const Superquadric box = BoxAround(points, view.up, middle - others[0].X_FO.translation());
   // As wide as seen from the camera, and as deep, from its nearest point on.
   Superquadric cylinder = BoxAround(points, view.up, middle - view.scene.viewpoint);
   const double radius = cylinder.semi_axes[1];
   cylinder.X_FO.translation() += cylinder.X_FO.linear().col(0) * (radius - cylinder.semi_axes[0]);
   cylinder.semi_axes[0] = radius;
   cylinder.epsilon = {kSharp, kRound};
-  const auto fitted = [&](const Superquadric& start) {
-    return FitLoosePart(points, view, start, fit, config.iterations, config.min_semi_axis_m);
-  };
-  const LmResult a = fitted(box), b = fitted(cylinder);
-  return a.at_minimum.cost <= b.at_minimum.cost ? a.shape : b.shape;
+  std::vector<Superquadric> best;
+  double least = 0;
+  for (const Superquadric& start : {box, cylinder}) {
+    std::vector<Superquadric> parts = others;
+    parts.push_back(
+        FitLoosePart(points, view, start, fit, config.iterations, config.min_semi_axis_m));
+    const double variance = Judge(parts, view, view.foreign_m()).variance_m2;
+    if (!best.empty() && variance >= least) continue;
+    best = std::move(parts);
+    least = variance;
+  }
+  return best;
 }
 
 // The shape with its foot where it is and its top at `height` along `up`.
@@ -168,8 +177,8 @@ bool SomethingSticksOut(const PartModel& model, const PartsView& view, const Par
   return outside >= FewestPoints(view, config);
 }
 
-std::optional<Superquadric> ProtrudingPart(const PartModel& model, const PartsView& view,
-                                           const AdaptiveConfig& fit, const PartsConfig& config) {
+std::vector<Superquadric> WithProtrudingPart(const PartModel& model, const PartsView& view,
+                                             const AdaptiveConfig& fit, const PartsConfig& config) {
   const PointBlock outside = Collect(
       view, [&](int i) { return static_cast<double>(model.DistanceOf(i)) > view.outside_m; });
   if (outside.size < FewestPoints(view, config)) return {};
@@ -182,7 +191,7 @@ std::optional<Superquadric> ProtrudingPart(const PartModel& model, const PartsVi
   if (sound.size < FewestPoints(view, config)) return {};
   const PointBlock group = LargestGroup(sound);
   if (group.size < FewestPoints(view, config)) return {};
-  return FitGroup(group, model.parts[0].X_FO.translation(), view, fit, config);
+  return WithGroup(model.parts, group, view, fit, config);
 }
 
 std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& config) {
@@ -203,6 +212,9 @@ std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& confi
     split = n;
     ratio = high / low;
   }
+#ifdef PARTS_DEBUG
+  printf("   ratio %.2f split %d", ratio, split);
+#endif
   const double height = profile.foot + (profile.top - profile.foot) * split / Profile::kBins;
   if (split == 0 || ratio > config.neck_width || profile.top - height < config.neck_height_m) {
     return {};
@@ -214,7 +226,7 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
                                       const PartsView& view, const AdaptiveConfig& fit,
                                       const PartsConfig& config) {
   constexpr double kDrawnOut_m = 0.5;  // well above any object
-  constexpr double kOwnShare = 0.25;   // of the points above, most that lie on the body drawn out
+  constexpr double kOwnShare = 0.35;   // of the points above, most that lie on the body drawn out
   const auto height_of = [&](int i) { return view.up.dot(view.points_F.at(i)); };
   const PointBlock lower = Collect(view, [&](int i) { return height_of(i) <= height; });
   const PointBlock upper = Collect(view, [&](int i) { return height_of(i) > height; });
@@ -234,8 +246,11 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
   for (int i = 0; i < upper.size; ++i) {
     own += std::abs(static_cast<double>(distances[static_cast<size_t>(i)])) < view.outside_m;
   }
+#ifdef PARTS_DEBUG
+  printf("   neck %.3f own %d of %d\n", height, own, upper.size);
+#endif
   if (own > kOwnShare * upper.size) return {};
-  return {body, FitGroup(upper, body.X_FO.translation(), view, fit, config)};
+  return WithGroup({body}, upper, view, fit, config);
 }
 
 }  // namespace beckon::pose

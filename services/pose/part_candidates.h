@@ -15,14 +15,14 @@ int FewestPoints(const PartsView& view, const PartsConfig& config);
 /// Whether enough points stick out of the single shape for a part, connected or not.
 bool SomethingSticksOut(const PartModel& model, const PartsView& view, const PartsConfig& config);
 
-/// A part for the largest connected group of points that stick out of the model.
-std::optional<Superquadric> ProtrudingPart(const PartModel& model, const PartsView& view,
-                                           const AdaptiveConfig& fit, const PartsConfig& config);
+/// The model and a part for the largest connected group of points that stick out of it; empty without one.
+std::vector<Superquadric> WithProtrudingPart(const PartModel& model, const PartsView& view,
+                                             const AdaptiveConfig& fit, const PartsConfig& config);
 
 /// The height along `view.up` at which the outline of the object steps to a narrower one above.
 std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& config);
 
-/// Body and neck, where the points above `height` are not the body's own.
+/// Body and neck; empty where the points above `height` are the body's own.
 std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
                                       const PartsView& view, const AdaptiveConfig& fit,
                                       const PartsConfig& config);

@@ -121,14 +121,14 @@ std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
   return refitted;
 }
 
-LmResult FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
+Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
                       const AdaptiveConfig& fit, int iterations, double min_semi_axis_m) {
   AdaptiveConfig loose = fit;
   loose.support_weight = 0;
   PointBlock none;
   const AdaptiveProblem problem(points_F, none, view.scene, UprightAxis(start, view.scene.table),
                                 loose);
-  return Minimise(problem, start, BoundsOf(start, fit, min_semi_axis_m), {iterations, 1e-4});
+  return Minimise(problem, start, BoundsOf(start, fit, min_semi_axis_m), {iterations, 1e-4}).shape;
 }
 
 }  // namespace beckon::pose

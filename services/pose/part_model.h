@@ -18,9 +18,13 @@ struct PartsView {
   Eigen::Vector3d up;    // unit, F
   double noise_m = 0;    // the camera's, at the object's distance
   double outside_m = 0;  // points farther outside stick out
+
+  /// Distance beyond which a point counts as foreign, not as one that the shape misses.
+  double foreign_m() const { return 3 * outside_m; }
 };
 
-using Distances = std::array<float, kBlockSize>;
+/// A distance a point, aligned as the kernels store them.
+struct alignas(32) Distances : std::array<float, kBlockSize> {};
 
 struct PartModel {
   std::vector<Superquadric> parts;       // the main body first
@@ -33,7 +37,7 @@ struct PartModel {
   size_t Nearest(int i) const;
 };
 
-/// The model with its distances and variance, the latter cut off at `foreign_m` a point.
+/// The model with its distances and variance, in which each point's distance is cut off at `foreign_m`.
 PartModel Judge(std::vector<Superquadric> parts, const PartsView& view, double foreign_m);
 
 /// Whether the ray to each of `points_F` passes `depth_m` deep through the shape before it gets there: the
@@ -41,14 +45,13 @@ PartModel Judge(std::vector<Superquadric> parts, const PartsView& view, double f
 std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
                               const PointBlock& points_F, double depth_m);
 
-/// Every part refitted to the points, and the outline's rays, that are nearest to it. Only parts that stand on
-/// the table are held to it. `max_half_m`: most that a part other than the main body may measure.
+/// Every part refitted to the points, and the outline's rays, that are nearest to it. The main body is
+/// held to the table, the others are not.
 std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
                                 const AdaptiveConfig& fit, int iterations, double min_semi_axis_m);
 
-/// One shape fitted to a few points from a start, of the outline's rays those nearest to it. Not held to the
-/// table.
-LmResult FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
+/// One shape fitted to a few points from a start; not held to the table.
+Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
                       const AdaptiveConfig& fit, int iterations, double min_semi_axis_m);
 
 }  // namespace beckon::pose

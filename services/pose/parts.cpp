@@ -13,7 +13,6 @@ namespace beckon::pose {
 namespace {
 
 constexpr int kPartParameters = 11;
-constexpr double kForeign = 3;  // a point is foreign from so many times the distance at which it sticks out
 
 // Depth noise of a structured-light camera at a distance (Nguyen, Izadi & Lovell 2012), m.
 double CameraNoise(double distance_m) {
@@ -53,48 +52,61 @@ double Gain(const PartModel& now, const PartModel& more, const PartsView& view,
          0.5 * kPartParameters * parts * std::log(n);
 }
 
-// Whether the points of a part show a body of its own, outside the main one and turned to the camera.
+// Whether the points of a part show a body of its own: most lie outside the main one, the outermost well so,
+// and neither of the two would hide them, were it solid (points on the near side of a thin handle may lie a
+// little behind its surface).
 bool IsBody(const PartModel& model, size_t part, const PartsView& view, const PartsConfig& config) {
   constexpr double kMost = 0.8;
-  const Superquadric& shape = model.parts[part];
   PointBlock own;
-  int outside = 0, facing = 0;
+  int outside = 0, inside = 0, far_out = 0;
   for (int i = 0; i < view.points_F.size; ++i) {
-    const double d = static_cast<double>(model.distances_m[part][static_cast<size_t>(i)]);
-    if (model.Nearest(i) != part || std::abs(d) > view.outside_m) continue;
-    const Eigen::Vector3d p = view.points_F.at(i);
-    own.Add(p, 1);
-    outside +=
-        static_cast<double>(model.distances_m[0][static_cast<size_t>(i)]) > 0.5 * view.outside_m;
-    const Eigen::Vector3d normal = shape.X_FO.linear() * NormalAt(shape, shape.X_FO.inverse() * p);
-    facing += normal.dot(p - view.scene.viewpoint) < 0;
+    const size_t k = static_cast<size_t>(i);
+    if (model.Nearest(i) != part ||
+        std::abs(static_cast<double>(model.distances_m[part][k])) > view.outside_m) {
+      continue;
+    }
+    own.Add(view.points_F.at(i), 1);
+    const double from_main = static_cast<double>(model.distances_m[0][k]);
+    outside += from_main > 0.5 * view.outside_m;
+    far_out += from_main > config.min_protrusion_m;
+    inside += from_main < -0.5 * view.outside_m;
   }
-  if (own.size < FewestPoints(view, config)) return false;
-  const std::vector<bool> through =
+  if (outside < FewestPoints(view, config) || outside < kMost * (outside + inside) ||
+      2 * outside < own.size || 10 * far_out < own.size) {
+    return false;
+  }
+  const std::vector<bool> behind_main =
       SeenThrough(model.parts[0], view.scene.viewpoint, own, view.outside_m);
-  const auto unseen = std::count(through.begin(), through.end(), false);
-  const double enough = kMost * own.size;
-  return outside >= enough && facing >= enough && static_cast<double>(unseen) >= enough;
+  const std::vector<bool> behind_itself =
+      SeenThrough(model.parts[part], view.scene.viewpoint, own, 2 * view.outside_m);
+  int seen = 0;
+  for (size_t i = 0; i < behind_main.size(); ++i) seen += !behind_main[i] && !behind_itself[i];
+#ifdef PARTS_DEBUG
+  printf(" [own %d outside %d inside %d seen %d]", own.size, outside, inside, seen);
+#endif
+  return seen >= kMost * own.size;
 }
 
 class Search {
  public:
   Search(const PointList& points, const AdaptiveConfig& fit, const PartsConfig& config,
          PartsView& view)
-      : points_(points), fit_(fit), config_(config), view_(view), foreign_m_(kForeign * view.outside_m) {}
+      : points_(points), fit_(fit), config_(config), view_(view) {}
 
   // The best model with a part more than `now` that pays, or one without parts.
   PartModel Extend(const PartModel& now, std::optional<double> neck_height) {
     std::vector<std::vector<Superquadric>> candidates;
     if (neck_height) candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
-    if (const auto part = ProtrudingPart(now, view_, fit_, config_)) {
-      candidates.push_back(now.parts);
-      candidates.back().push_back(*part);
-    }
+    candidates.push_back(WithProtrudingPart(now, view_, fit_, config_));
     PartModel best;
     for (const auto& parts : candidates) {
       if (parts.size() <= now.parts.size()) continue;
       PartModel model = Alternate(parts);
+#ifdef PARTS_DEBUG
+      printf("   candidate %zu of %zu: sd %.2f -> %.2f gain %.1f body", &parts - &candidates[0], candidates.size(), 1e3*std::sqrt(now.variance_m2), 1e3*std::sqrt(model.variance_m2), Gain(now, model, view_, config_));
+      for (size_t part = 1; part < model.parts.size(); ++part) printf(" %d", IsBody(model, part, view_, config_));
+      puts("");
+#endif
       if (Gain(now, model, view_, config_) <= 0 ||
           (!best.parts.empty() && best.variance_m2 <= model.variance_m2)) {
         continue;
@@ -108,7 +120,7 @@ class Search {
     return best;
   }
 
-  PartModel Start(const Superquadric& single) const { return Judge({single}, view_, foreign_m_); }
+  PartModel Start(const Superquadric& single) const { return Judge({single}, view_, view_.foreign_m()); }
 
  private:
   PartModel Alternate(const std::vector<Superquadric>& parts) {
@@ -117,10 +129,10 @@ class Search {
           TraceSilhouette(points_, {}, view_.scene.viewpoint, view_.scene.table,
                           {fit_.outline_rays, fit_.pixel_rad, fit_.table_margin_m}).rays_F;
     }
-    PartModel model = Judge(parts, view_, foreign_m_);
+    PartModel model = Judge(parts, view_, view_.foreign_m());
     for (int round = 0; round < config_.rounds; ++round) {
       PartModel refitted = Judge(
-          Refit(model, view_, fit_, config_.iterations, config_.min_semi_axis_m), view_, foreign_m_);
+          Refit(model, view_, fit_, config_.iterations, config_.min_semi_axis_m), view_, view_.foreign_m());
       if (refitted.variance_m2 < model.variance_m2) model = std::move(refitted);
     }
     return model;
@@ -130,7 +142,6 @@ class Search {
   const AdaptiveConfig& fit_;
   const PartsConfig& config_;
   PartsView& view_;
-  const double foreign_m_;
 };
 
 }  // namespace
@@ -148,6 +159,9 @@ std::vector<Superquadric> FindParts(const PointList& points_F, const std::option
   view.outside_m = std::max({config.outside_m, config.outside_sigmas * view.noise_m,
                              config.outside_medians * MedianDistance(model, view.points_F.size)});
   const std::optional<double> neck_height = NeckHeight(view, config);
+#ifdef PARTS_DEBUG
+  printf("   outside_m %.4f neck %.3f sticks %d\n", view.outside_m, neck_height.value_or(-1), SomethingSticksOut(model, view, config));
+#endif
   if (!neck_height && !SomethingSticksOut(model, view, config)) return {};
 
   Search search(points_F, fit, config, view);

@@ -22,13 +22,14 @@ struct PartsConfig {
   // A part explains so many of the 512 points that are looked at, and this share of all.
   int min_points = 12;
   double min_share = 0.025;
+  double min_protrusion_m = 0.012;  // it reaches so far outside the main body: a lid's rim is no part
   // A neck: what is above is this much narrower than what is below, and so high at least.
   double neck_width = 0.72;
   double neck_height_m = 0.012;
   int rounds = 2;       // of assigning points to parts and refitting each
   int iterations = 10;  // of a part's refit
   double min_semi_axis_m = 0.003;
-  int witnesses = 300;  // points that count, at most: neighbours in an image err together
+  int witnesses = 120;  // points that count, at most: neighbours in an image err together
 };
 
 /// The parts of an object whose points one superquadric, `single`, has been fitted to: the main body first,
