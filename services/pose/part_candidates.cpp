@@ -197,25 +197,31 @@ std::vector<Superquadric> WithProtrudingPart(const PartModel& model, const Parts
 std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& config) {
   const Profile profile = Measure(view);
   // The split of the widths into two levels of the least squares (Otsu 1979): the largest between them.
-  constexpr int kFewest = 2;
-  double total = 0, below = 0, best = 0;
-  for (int bin = 0; bin < Profile::kBins; ++bin) total += profile.Width(bin);
+  constexpr int kFewest = 2, kBins = Profile::kBins;
+  double total = 0, below = 0, step = 0, moment = 0;
+  for (int bin = 0; bin < kBins; ++bin) {
+    total += profile.Width(bin);
+    moment += profile.Width(bin) * (bin - 0.5 * (kBins - 1));
+  }
   int split = 0;
   double ratio = 1;
-  for (int bin = 0; bin < Profile::kBins - kFewest; ++bin) {
+  for (int bin = 0; bin < kBins - kFewest; ++bin) {
     below += profile.Width(bin);
-    const int n = bin + 1, m = Profile::kBins - n;
+    const int n = bin + 1, m = kBins - n;
     const double low = below / n, high = (total - below) / m;
-    const double between = (low - high) * (low - high) * n * m;
-    if (n < kFewest || high >= low || between <= best) continue;
-    best = between;
+    const double explained = (low - high) * (low - high) * n * m / kBins;
+    if (n < kFewest || high >= low || explained <= step) continue;
+    step = explained;
     split = n;
     ratio = high / low;
   }
+  // A straight line through the widths explains this much of them: a cone, a dome.
+  const double slope = moment * moment * 12 / (kBins * (kBins * kBins - 1.0));
+  if (slope > step) return {};
 #ifdef PARTS_DEBUG
   printf("   ratio %.2f split %d", ratio, split);
 #endif
-  const double height = profile.foot + (profile.top - profile.foot) * split / Profile::kBins;
+  const double height = profile.foot + (profile.top - profile.foot) * split / kBins;
   if (split == 0 || ratio > config.neck_width || profile.top - height < config.neck_height_m) {
     return {};
   }

@@ -7,6 +7,7 @@
 
 #include "services/pose/part_candidates.h"
 #include "services/pose/part_model.h"
+#include "services/pose/round_body.h"
 #include "services/pose/silhouette.h"
 
 namespace beckon::pose {
@@ -87,6 +88,10 @@ bool IsBody(const PartModel& model, size_t part, const PartsView& view, const Pa
   return seen >= kMost * own.size;
 }
 
+bool IsAstray(const PartModel& model, const PartsView& view, const PartsConfig& config) {
+  return model.variance_m2 > std::pow(config.astray_sigmas * view.noise_m, 2);
+}
+
 class Search {
  public:
   Search(const PointList& points, const AdaptiveConfig& fit, const PartsConfig& config,
@@ -98,6 +103,12 @@ class Search {
     std::vector<std::vector<Superquadric>> candidates;
     if (neck_height) candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
     candidates.push_back(WithProtrudingPart(now, view_, fit_, config_));
+    if (now.parts.size() == 1 && IsAstray(now, view_, config_)) {
+      if (const auto body = FindRoundBody(view_, config_.round_share)) {
+        candidates.push_back(
+            WithProtrudingPart(Judge({*body}, view_, view_.foreign_m()), view_, fit_, config_));
+      }
+    }
     PartModel best;
     for (const auto& parts : candidates) {
       if (parts.size() <= now.parts.size()) continue;
@@ -119,8 +130,6 @@ class Search {
     }
     return best;
   }
-
-  PartModel Start(const Superquadric& single) const { return Judge({single}, view_, view_.foreign_m()); }
 
  private:
   PartModel Alternate(const std::vector<Superquadric>& parts) {
@@ -162,10 +171,11 @@ std::vector<Superquadric> FindParts(const PointList& points_F, const std::option
 #ifdef PARTS_DEBUG
   printf("   outside_m %.4f neck %.3f sticks %d\n", view.outside_m, neck_height.value_or(-1), SomethingSticksOut(model, view, config));
 #endif
-  if (!neck_height && !SomethingSticksOut(model, view, config)) return {};
-
+  model = Judge({single}, view, view.foreign_m());
+  if (!neck_height && !SomethingSticksOut(model, view, config) && !IsAstray(model, view, config)) {
+    return {};
+  }
   Search search(points_F, fit, config, view);
-  model = search.Start(single);
   for (int parts = 1; parts < config.most_parts; ++parts) {
     PartModel more = search.Extend(model, parts == 1 ? neck_height : std::nullopt);
     if (more.parts.empty()) break;

@@ -26,6 +26,10 @@ struct PartsConfig {
   // A neck: what is above is this much narrower than what is below, and so high at least.
   double neck_width = 0.72;
   double neck_height_m = 0.012;
+  // Where the points lie this many times the camera's noise from the single shape, a part may have led it
+  // astray: then a round body is looked for that holds this share of them.
+  double astray_sigmas = 2.5;
+  double round_share = 0.35;
   int rounds = 2;       // of assigning points to parts and refitting each
   int iterations = 10;  // of a part's refit
   double min_semi_axis_m = 0.003;
@@ -44,8 +48,10 @@ struct PartsConfig {
 ///
 /// Where a part may be is told by the points, not by gaps between them (occluders leave gaps):
 /// - points that stick out of the surface, in one connected group;
-/// - a neck: the outline's width falls in a step, and the points above it lie within the body below it
+/// - a neck: the outline's width falls in a step rather than evenly, and the points above it lie within the body below it
 ///   drawn out upwards (where an occluder hides the upper corners of a box, they lie on its surface).
+/// - what sticks out of the upright cylinder that most points lie on, where the single shape fits badly: a
+///   handle may have drawn it out.
 /// In the end the points of a part lie outside the main body, are not seen through it (the far inside of a
 /// bowl), and on the side of the part that faces the camera (a hollow shows the other side).
 std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
