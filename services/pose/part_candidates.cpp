@@ -63,7 +63,8 @@ PointBlock LargestGroup(const PointBlock& points) {
   }
   PointBlock block;
   for (int i = 0; i < points.size; ++i) {
-    if (group[static_cast<size_t>(i)] == largest) block.Add(points.at(i), 1.0 / static_cast<double>(most));
+    if (group[static_cast<size_t>(i)] == largest)
+      block.Add(points.at(i), 1.0 / static_cast<double>(most));
   }
   block.Pad();
   return block;
@@ -88,11 +89,11 @@ Superquadric BoxAround(const PointBlock& points, const Eigen::Vector3d& up,
   return box;
 }
 
-// Of a box and an upright cylinder that fill a group of points, fitted to it, that which makes the better
-// model together with the others.
-std::vector<Superquadric> WithGroup(const std::vector<Superquadric>& others, const PointBlock& points,
-                                    const PartsView& view, const AdaptiveConfig& fit,
-                                    const PartsConfig& config) {
+// Of a box and an upright cylinder that fill a group of points, fitted to it, that which makes the
+// better model together with the others.
+std::vector<Superquadric> WithGroup(const std::vector<Superquadric>& others,
+                                    const PointBlock& points, const PartsView& view,
+                                    const AdaptiveConfig& fit, const PartsConfig& config) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int i = 0; i < points.size; ++i) middle += points.at(i) / points.size;
   const Superquadric box = BoxAround(points, view.up, middle - others[0].X_FO.translation());
@@ -196,7 +197,9 @@ std::vector<Superquadric> WithProtrudingPart(const PartModel& model, const Parts
 
 std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& config) {
   const Profile profile = Measure(view);
-  // The split of the widths into two levels of the least squares (Otsu 1979): the largest between them.
+  // The split of the widths into two levels of the least squares (Otsu 1979): the largest between
+  // them.
+  constexpr double kCone = 1.15;
   constexpr int kFewest = 2, kBins = Profile::kBins;
   double total = 0, below = 0, step = 0, moment = 0;
   for (int bin = 0; bin < kBins; ++bin) {
@@ -215,12 +218,10 @@ std::optional<double> NeckHeight(const PartsView& view, const PartsConfig& confi
     split = n;
     ratio = high / low;
   }
-  // A straight line through the widths explains this much of them: a cone, a dome.
+  // A straight line through the widths explains this much of them: clearly more for a cone or a
+  // dome.
   const double slope = moment * moment * 12 / (kBins * (kBins * kBins - 1.0));
-  if (slope > step) return {};
-#ifdef PARTS_DEBUG
-  printf("   ratio %.2f split %d", ratio, split);
-#endif
+  if (slope > kCone * step) return {};
   const double height = profile.foot + (profile.top - profile.foot) * split / kBins;
   if (split == 0 || ratio > config.neck_width || profile.top - height < config.neck_height_m) {
     return {};
@@ -234,7 +235,8 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
   constexpr double kDrawnOut_m = 0.5;  // well above any object
   constexpr double kOwnShare = 0.35;   // of the points above, most that lie on the body drawn out
   const auto height_of = [&](int i) { return view.up.dot(view.points_F.at(i)); };
-  const PointBlock lower = Collect(view, [&](int i) { return height_of(i) <= height; });
+  const PointBlock lower =
+      Collect(view, [&](int i) { return i % 2 == 0 && height_of(i) <= height; });  // half will do
   const PointBlock upper = Collect(view, [&](int i) { return height_of(i) > height; });
   if (std::min(lower.size, upper.size) < FewestPoints(view, config)) return {};
   PointBlock none;
@@ -252,9 +254,6 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
   for (int i = 0; i < upper.size; ++i) {
     own += std::abs(static_cast<double>(distances[static_cast<size_t>(i)])) < view.outside_m;
   }
-#ifdef PARTS_DEBUG
-  printf("   neck %.3f own %d of %d\n", height, own, upper.size);
-#endif
   if (own > kOwnShare * upper.size) return {};
   return WithGroup({body}, upper, view, fit, config);
 }

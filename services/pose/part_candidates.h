@@ -15,7 +15,8 @@ int FewestPoints(const PartsView& view, const PartsConfig& config);
 /// Whether enough points stick out of the single shape for a part, connected or not.
 bool SomethingSticksOut(const PartModel& model, const PartsView& view, const PartsConfig& config);
 
-/// The model and a part for the largest connected group of points that stick out of it; empty without one.
+/// The model and a part for the largest connected group of points that stick out of it; empty
+/// without one.
 std::vector<Superquadric> WithProtrudingPart(const PartModel& model, const PartsView& view,
                                              const AdaptiveConfig& fit, const PartsConfig& config);
 

@@ -64,14 +64,17 @@ PartModel Judge(std::vector<Superquadric> parts, const PartsView& view, double f
   for (size_t part = 0; part < model.parts.size(); ++part) {
     ComputeDistances(model.parts[part], view.points_F, model.distances_m[part]);
   }
+  model.variance_m2 = Variance(model, view, foreign_m);
+  return model;
+}
+
+double Variance(const PartModel& model, const PartsView& view, double foreign_m) {
   double squares = 0;
   for (int i = 0; i < view.points_F.size; ++i) {
     const double d = std::min(std::abs(static_cast<double>(model.DistanceOf(i))), foreign_m);
     squares += d * d;
   }
-  model.variance_m2 =
-      view.noise_m * view.noise_m + squares / std::max(view.points_F.size, 1);
-  return model;
+  return view.noise_m * view.noise_m + squares / std::max(view.points_F.size, 1);
 }
 
 std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
@@ -86,7 +89,8 @@ std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& 
   ComputeDistances(shape, deepest, depth);
   std::vector<bool> through(static_cast<size_t>(points_F.size));
   for (int i = 0; i < points_F.size; ++i) {
-    const bool before = (deepest.at(i) - viewpoint_F).norm() < (points_F.at(i) - viewpoint_F).norm();
+    const bool before =
+        (deepest.at(i) - viewpoint_F).norm() < (points_F.at(i) - viewpoint_F).norm();
     through[static_cast<size_t>(i)] =
         before && static_cast<double>(depth[static_cast<size_t>(i)]) < -depth_m;
   }
@@ -111,18 +115,22 @@ std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
   loose.support_weight = 0;
   for (size_t part = 0; part < refitted.size(); ++part) {
     Superquadric& shape = refitted[part];
-    const PointBlock points = Subset(view.points_F, [&](int i) { return model.Nearest(i) == part; });
+    // Of the main body's many points half will do.
+    const PointBlock points = Subset(
+        view.points_F, [&](int i) { return (part > 0 || i % 2 == 0) && model.Nearest(i) == part; });
     if (points.size < kParameters) continue;
     const PointBlock rays = Subset(view.rays_F, [&](int i) { return ray_of(part, i); });
     const AdaptiveProblem problem(points, rays, view.scene, UprightAxis(shape, view.scene.table),
                                   part == 0 ? fit : loose);
-    shape = Minimise(problem, shape, BoundsOf(shape, fit, min_semi_axis_m), {iterations, 1e-4}).shape;
+    shape =
+        Minimise(problem, shape, BoundsOf(shape, fit, min_semi_axis_m), {iterations, 1e-4}).shape;
   }
   return refitted;
 }
 
-Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
-                      const AdaptiveConfig& fit, int iterations, double min_semi_axis_m) {
+Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view,
+                          const Superquadric& start, const AdaptiveConfig& fit, int iterations,
+                          double min_semi_axis_m) {
   AdaptiveConfig loose = fit;
   loose.support_weight = 0;
   PointBlock none;

@@ -27,9 +27,9 @@ struct PartsView {
 struct alignas(32) Distances : std::array<float, kBlockSize> {};
 
 struct PartModel {
-  std::vector<Superquadric> parts;       // the main body first
-  std::vector<Distances> distances_m;    // of every point from every part, signed
-  double variance_m2 = 0;                // the camera's and that of the points about the union
+  std::vector<Superquadric> parts;     // the main body first
+  std::vector<Distances> distances_m;  // of every point from every part, signed
+  double variance_m2 = 0;              // the camera's and that of the points about the union
 
   /// Signed distance of point `i` from the union: that of the part it is deepest in or nearest to.
   float DistanceOf(int i) const;
@@ -37,21 +37,26 @@ struct PartModel {
   size_t Nearest(int i) const;
 };
 
-/// The model with its distances and variance, in which each point's distance is cut off at `foreign_m`.
+/// The model with its distances and variance, in which each point's distance is cut off at
+/// `foreign_m`.
 PartModel Judge(std::vector<Superquadric> parts, const PartsView& view, double foreign_m);
 
-/// Whether the ray to each of `points_F` passes `depth_m` deep through the shape before it gets there: the
-/// camera would not see the point, were the shape solid there.
+/// The variance of a model whose distances are known.
+double Variance(const PartModel& model, const PartsView& view, double foreign_m);
+
+/// Whether the ray to each of `points_F` passes `depth_m` deep through the shape before it gets
+/// there: the camera would not see the point, were the shape solid there.
 std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
                               const PointBlock& points_F, double depth_m);
 
-/// Every part refitted to the points, and the outline's rays, that are nearest to it. The main body is
-/// held to the table, the others are not.
+/// Every part refitted to the points, and the outline's rays, that are nearest to it. The main body
+/// is held to the table, the others are not.
 std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
                                 const AdaptiveConfig& fit, int iterations, double min_semi_axis_m);
 
 /// One shape fitted to a few points from a start; not held to the table.
-Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view, const Superquadric& start,
-                      const AdaptiveConfig& fit, int iterations, double min_semi_axis_m);
+Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view,
+                          const Superquadric& start, const AdaptiveConfig& fit, int iterations,
+                          double min_semi_axis_m);
 
 }  // namespace beckon::pose

@@ -21,8 +21,8 @@ double CameraNoise(double distance_m) {
   return 0.0012 + 0.0019 * beyond * beyond;
 }
 
-// At most a block of the points, one from each stretch of the cloud, at a place that does not repeat from row
-// to row of an image.
+// At most a block of the points, one from each stretch of the cloud, at a place that does not
+// repeat from row to row of an image.
 PointBlock Sample(const PointList& points) {
   PointBlock block;
   const double count = static_cast<double>(std::min<size_t>(points.size(), kBlockSize));
@@ -53,11 +53,17 @@ double Gain(const PartModel& now, const PartModel& more, const PartsView& view,
          0.5 * kPartParameters * parts * std::log(n);
 }
 
-// Whether the points of a part show a body of its own: most lie outside the main one, the outermost well so,
-// and neither of the two would hide them, were it solid (points on the near side of a thin handle may lie a
-// little behind its surface).
+// Whether the points of a part show a body of its own: most lie outside the main one, the outermost
+// well so, its centre is not within the main one (that would be the main one told again), and
+// neither of the two would hide them, were it solid (points of a thin handle may lie a little
+// behind its surface).
 bool IsBody(const PartModel& model, size_t part, const PartsView& view, const PartsConfig& config) {
   constexpr double kMost = 0.8;
+  constexpr double kLeastApart =
+      0.9;  // of the way to the main body's surface lies the part's centre
+  const Superquadric& main = model.parts[0];
+  if (Gauge(main, main.X_FO.inverse() * model.parts[part].X_FO.translation()) < kLeastApart)
+    return false;
   PointBlock own;
   int outside = 0, inside = 0, far_out = 0;
   for (int i = 0; i < view.points_F.size; ++i) {
@@ -77,15 +83,19 @@ bool IsBody(const PartModel& model, size_t part, const PartsView& view, const Pa
     return false;
   }
   const std::vector<bool> behind_main =
-      SeenThrough(model.parts[0], view.scene.viewpoint, own, view.outside_m);
+      SeenThrough(main, view.scene.viewpoint, own, view.outside_m);
   const std::vector<bool> behind_itself =
       SeenThrough(model.parts[part], view.scene.viewpoint, own, 2 * view.outside_m);
   int seen = 0;
   for (size_t i = 0; i < behind_main.size(); ++i) seen += !behind_main[i] && !behind_itself[i];
-#ifdef PARTS_DEBUG
-  printf(" [own %d outside %d inside %d seen %d]", own.size, outside, inside, seen);
-#endif
   return seen >= kMost * own.size;
+}
+
+bool AreBodies(const PartModel& model, const PartsView& view, const PartsConfig& config) {
+  for (size_t part = 1; part < model.parts.size(); ++part) {
+    if (!IsBody(model, part, view, config)) return false;
+  }
+  return true;
 }
 
 bool IsAstray(const PartModel& model, const PartsView& view, const PartsConfig& config) {
@@ -98,10 +108,12 @@ class Search {
          PartsView& view)
       : points_(points), fit_(fit), config_(config), view_(view) {}
 
-  // The best model with a part more than `now` that pays, or one without parts.
+  // The first model with a part more than `now` that pays, of those that start best first; or one
+  // without parts.
   PartModel Extend(const PartModel& now, std::optional<double> neck_height) {
     std::vector<std::vector<Superquadric>> candidates;
-    if (neck_height) candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
+    if (neck_height)
+      candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
     candidates.push_back(WithProtrudingPart(now, view_, fit_, config_));
     if (now.parts.size() == 1 && IsAstray(now, view_, config_)) {
       if (const auto body = FindRoundBody(view_, config_.round_share)) {
@@ -109,39 +121,31 @@ class Search {
             WithProtrudingPart(Judge({*body}, view_, view_.foreign_m()), view_, fit_, config_));
       }
     }
-    PartModel best;
-    for (const auto& parts : candidates) {
-      if (parts.size() <= now.parts.size()) continue;
-      PartModel model = Alternate(parts);
-#ifdef PARTS_DEBUG
-      printf("   candidate %zu of %zu: sd %.2f -> %.2f gain %.1f body", &parts - &candidates[0], candidates.size(), 1e3*std::sqrt(now.variance_m2), 1e3*std::sqrt(model.variance_m2), Gain(now, model, view_, config_));
-      for (size_t part = 1; part < model.parts.size(); ++part) printf(" %d", IsBody(model, part, view_, config_));
-      puts("");
-#endif
-      if (Gain(now, model, view_, config_) <= 0 ||
-          (!best.parts.empty() && best.variance_m2 <= model.variance_m2)) {
-        continue;
-      }
-      bool bodies = true;
-      for (size_t part = 1; part < model.parts.size(); ++part) {
-        bodies = bodies && IsBody(model, part, view_, config_);
-      }
-      if (bodies) best = std::move(model);
+    std::vector<PartModel> models;
+    for (auto& parts : candidates) {
+      if (!parts.empty()) models.push_back(Judge(std::move(parts), view_, view_.foreign_m()));
     }
-    return best;
+    std::stable_sort(models.begin(), models.end(), [](const PartModel& a, const PartModel& b) {
+      return a.variance_m2 < b.variance_m2;
+    });
+    for (const PartModel& start : models) {
+      PartModel model = Alternate(start);
+      if (Gain(now, model, view_, config_) > 0 && AreBodies(model, view_, config_)) return model;
+    }
+    return {};
   }
 
  private:
-  PartModel Alternate(const std::vector<Superquadric>& parts) {
+  PartModel Alternate(PartModel model) {
     if (view_.rays_F.size == 0) {
-      view_.rays_F =
-          TraceSilhouette(points_, {}, view_.scene.viewpoint, view_.scene.table,
-                          {fit_.outline_rays, fit_.pixel_rad, fit_.table_margin_m}).rays_F;
+      view_.rays_F = TraceSilhouette(points_, {}, view_.scene.viewpoint, view_.scene.table,
+                                     {fit_.outline_rays / 2, fit_.pixel_rad, fit_.table_margin_m})
+                         .rays_F;
     }
-    PartModel model = Judge(parts, view_, view_.foreign_m());
     for (int round = 0; round < config_.rounds; ++round) {
-      PartModel refitted = Judge(
-          Refit(model, view_, fit_, config_.iterations, config_.min_semi_axis_m), view_, view_.foreign_m());
+      PartModel refitted =
+          Judge(Refit(model, view_, fit_, config_.iterations, config_.min_semi_axis_m), view_,
+                view_.foreign_m());
       if (refitted.variance_m2 < model.variance_m2) model = std::move(refitted);
     }
     return model;
@@ -158,7 +162,8 @@ class Search {
 std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
                                     const Eigen::Vector3d& viewpoint_F, const Superquadric& single,
                                     const AdaptiveConfig& fit, const PartsConfig& config) {
-  if (config.most_parts < 2 || points_F.size() < 2 * static_cast<size_t>(config.min_points)) return {};
+  if (config.most_parts < 2 || points_F.size() < 2 * static_cast<size_t>(config.min_points))
+    return {};
   PartsView view;
   view.points_F = Sample(points_F);
   view.scene = {table_F, viewpoint_F, single.semi_axes.array().log().sum()};
@@ -168,10 +173,7 @@ std::vector<Superquadric> FindParts(const PointList& points_F, const std::option
   view.outside_m = std::max({config.outside_m, config.outside_sigmas * view.noise_m,
                              config.outside_medians * MedianDistance(model, view.points_F.size)});
   const std::optional<double> neck_height = NeckHeight(view, config);
-#ifdef PARTS_DEBUG
-  printf("   outside_m %.4f neck %.3f sticks %d\n", view.outside_m, neck_height.value_or(-1), SomethingSticksOut(model, view, config));
-#endif
-  model = Judge({single}, view, view.foreign_m());
+  model.variance_m2 = Variance(model, view, view.foreign_m());
   if (!neck_height && !SomethingSticksOut(model, view, config) && !IsAstray(model, view, config)) {
     return {};
   }

@@ -70,9 +70,8 @@ std::optional<Superquadric> FindRoundBody(const PartsView& view, double min_shar
   Superquadric body;
   body.semi_axes = {best.radius, best.radius, std::max(0.5 * top, 0.002)};
   body.epsilon = {kSharp, 1};
-  X_FO.translation() =
-      X_FO.linear() * Eigen::Vector3d(best.centre.x(), best.centre.y(),
-                                      0.5 * top - view.scene.table->offset_m);
+  X_FO.translation() = X_FO.linear() * Eigen::Vector3d(best.centre.x(), best.centre.y(),
+                                                       0.5 * top - view.scene.table->offset_m);
   body.X_FO = X_FO;
   return body;
 }

@@ -7,9 +7,9 @@
 
 namespace beckon::pose {
 
-/// The cylinder along `view.up` whose wall holds the most points, standing on the table; found by random
-/// circles through three points (RANSAC, Fischler & Bolles 1981). Empty without a table, or where it holds
-/// less than `min_share` of them. Deterministic.
+/// The cylinder along `view.up` whose wall holds the most points, standing on the table; found by
+/// random circles through three points (RANSAC, Fischler & Bolles 1981). Empty without a table, or
+/// where it holds less than `min_share` of them. Deterministic.
 std::optional<Superquadric> FindRoundBody(const PartsView& view, double min_share);
 
 }  // namespace beckon::pose
