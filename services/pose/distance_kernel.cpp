@@ -193,6 +193,12 @@ BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const P
   }
 }
 
+BECKON_LANES_INLINE void Distances(const Shape& s, const PointBlock& points, float* out) {
+  for (int i = 0; i < points.size; i += kLanes) {
+    Store(out + i, DistanceOf(GaugeAt(s, ToShape(s, LoadPoint(points, i)))).distance);
+  }
+}
+
 BECKON_LANES_INLINE void RadialDistances(const Shape& s, const PointBlock& points, Lanes& sum) {
   for (int i = 0; i < points.size; i += kLanes) {
     const Point p = ToShape(s, LoadPoint(points, i));
@@ -227,6 +233,7 @@ BECKON_KERNEL(Deepest,
               (const Shape& s, const float* viewpoint, const PointBlock& rays, float reach,
                int steps, PointBlock& points),
               (s, viewpoint, rays, reach, steps, points))
+BECKON_KERNEL(Distances, (const Shape& s, const PointBlock& points, float* out), (s, points, out))
 BECKON_KERNEL(RadialDistances, (const Shape& s, const PointBlock& points, Lanes& sum),
               (s, points, sum))
 
@@ -279,6 +286,11 @@ void FindDeepest(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
   points_F.weight = rays_F.weight;
   RunDeepest(Shape(shape), viewpoint.data(), rays_F, static_cast<float>(shape.semi_axes.norm()),
              steps, points_F);
+}
+
+void ComputeDistances(const Superquadric& shape, const PointBlock& points_F,
+                      BlockDistances& distances_m) {
+  RunDistances(Shape(shape), points_F, distances_m.data());
 }
 
 double SumRadialDistances(const Superquadric& shape, const PointBlock& points_F) {

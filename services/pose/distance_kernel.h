@@ -54,6 +54,13 @@ DistanceSum SumDistances(const Superquadric& shape, const PointBlock& points_F, 
 void FindDeepest(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
                  const PointBlock& rays_F, int steps, PointBlock& points_F);
 
+/// A distance a point, aligned as the kernels store them.
+struct alignas(32) BlockDistances : std::array<float, kBlockSize> {};
+
+/// Signed first-order distances, m.
+void ComputeDistances(const Superquadric& shape, const PointBlock& points_F,
+                      BlockDistances& distances_m);
+
 /// Sum over the points of weight * |p| |1 - 1/g|, the radial distance, m.
 double SumRadialDistances(const Superquadric& shape, const PointBlock& points_F);
 

@@ -156,6 +156,10 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
              1e3 * result.mean_radial_distance_m, 1e3 * config.max_radial_distance_m);
   }
   result.converged = result.reason.empty();
+  if (config.method == Method::kAdaptive) {
+    result.parts = FindParts(points, input.table_F, input.viewpoint_F, input.rim_F, result.shape,
+                             config.adaptive, config.parts);
+  }
   return result;
 }
 

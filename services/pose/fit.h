@@ -12,6 +12,7 @@
 #include "services/base/rim.h"
 #include "services/pose/fit_adaptive.h"
 #include "services/pose/fit_multiscale.h"
+#include "services/pose/parts.h"
 #include "services/pose/superquadric.h"
 
 namespace beckon::pose {
@@ -26,6 +27,7 @@ struct FitConfig {
   Method method = Method::kAdaptive;
   AdaptiveConfig adaptive;
   MultiscaleConfig multiscale;
+  PartsConfig parts;  // of the adaptive method
   double max_extent_m = 3.0;    // a cloud larger than this is not an object in metres
   double min_extent_m = 0.005;  // one smaller than this shows nothing
   double max_radial_distance_m =

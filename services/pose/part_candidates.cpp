@@ -129,6 +129,18 @@ Superquadric WithTopAt(const Superquadric& shape, const Eigen::Vector3d& up, dou
   return moved;
 }
 
+// Whether the image shows the background beyond the outline above `height`, and nothing in front.
+bool OutlineIsOwnAbove(double height, const PartsView& view) {
+  int farther = 0, hidden = 0, all = 0;
+  for (const RimPoint& rim : view.rim_F) {
+    if (view.up.dot(rim.point.cast<double>()) <= height) continue;
+    ++all;
+    farther += rim.beyond == Beyond::kFarther;
+    hidden += rim.beyond == Beyond::kNearer || rim.beyond == Beyond::kImageBorder;
+  }
+  return 2 * farther > all && 20 * hidden < all;
+}
+
 struct Profile {
   static constexpr int kBins = 24;
   std::array<double, kBins> lo, hi;  // m, to the right as seen from the camera
@@ -233,7 +245,8 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
                                       const PartsView& view, const AdaptiveConfig& fit,
                                       const PartsConfig& config) {
   constexpr double kDrawnOut_m = 0.5;  // well above any object
-  constexpr double kOwnShare = 0.35;   // of the points above, most that lie on the body drawn out
+  constexpr double kOwnShareInFullView = 0.6;
+  constexpr double kOwnShare = 0.35;  // of the points above, most that lie on the body drawn out
   const auto height_of = [&](int i) { return view.up.dot(view.points_F.at(i)); };
   const PointBlock lower =
       Collect(view, [&](int i) { return i % 2 == 0 && height_of(i) <= height; });  // half will do
@@ -248,13 +261,14 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
   bounds.min_epsilon = fit.min_epsilon;
   bounds.max_epsilon = fit.max_epsilon;
   const Superquadric body = Minimise(problem, start, bounds, {config.iterations, 1e-4}).shape;
-  Distances distances;
+  BlockDistances distances;
   ComputeDistances(WithTopAt(body, view.up, height + kDrawnOut_m), upper, distances);
   int own = 0;
   for (int i = 0; i < upper.size; ++i) {
     own += std::abs(static_cast<double>(distances[static_cast<size_t>(i)])) < view.outside_m;
   }
-  if (own > kOwnShare * upper.size) return {};
+  const double allowed = OutlineIsOwnAbove(height, view) ? kOwnShareInFullView : kOwnShare;
+  if (own > allowed * upper.size) return {};
   return WithGroup({body}, upper, view, fit, config);
 }
 

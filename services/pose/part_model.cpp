@@ -7,6 +7,7 @@
 namespace beckon::pose {
 namespace {
 
+constexpr int kSearchSteps = 12;       // of the deepest points of rays
 constexpr double kRayReach_m = 0.015;  // rays that pass all parts farther away belong to none
 constexpr double kLooseGrowth = 1.6;   // a semi-axis grows to this many times its start at most
 
@@ -25,9 +26,9 @@ PointBlock Subset(const PointBlock& block, const Keep& keep) {
 }
 
 // How far the rays pass from the shape, signed.
-void RayDistances(const Superquadric& shape, const PartsView& view, Distances& distances_m) {
+void RayDistances(const Superquadric& shape, const PartsView& view, BlockDistances& distances_m) {
   PointBlock deepest;
-  FindDeepest(shape, view.scene.viewpoint, view.rays_F, deepest);
+  FindDeepest(shape, view.scene.viewpoint, view.rays_F, kSearchSteps, deepest);
   ComputeDistances(shape, deepest, distances_m);
 }
 
@@ -44,7 +45,7 @@ FitBounds BoundsOf(const Superquadric& start, const AdaptiveConfig& fit, double 
 
 float PartModel::DistanceOf(int i) const {
   float least = distances_m[0][static_cast<size_t>(i)];
-  for (const Distances& d : distances_m) least = std::min(least, d[static_cast<size_t>(i)]);
+  for (const BlockDistances& d : distances_m) least = std::min(least, d[static_cast<size_t>(i)]);
   return least;
 }
 
@@ -84,8 +85,8 @@ std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& 
     rays.Add((points_F.at(i) - viewpoint_F).normalized(), 1);
   }
   if (rays.size > 0) rays.Pad();
-  FindDeepest(shape, viewpoint_F, rays, deepest);
-  Distances depth;
+  FindDeepest(shape, viewpoint_F, rays, kSearchSteps, deepest);
+  BlockDistances depth;
   ComputeDistances(shape, deepest, depth);
   std::vector<bool> through(static_cast<size_t>(points_F.size));
   for (int i = 0; i < points_F.size; ++i) {
@@ -99,7 +100,7 @@ std::vector<bool> SeenThrough(const Superquadric& shape, const Eigen::Vector3d& 
 
 std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
                                 const AdaptiveConfig& fit, int iterations, double min_semi_axis_m) {
-  std::vector<Distances> ray_distances(model.parts.size());
+  std::vector<BlockDistances> ray_distances(model.parts.size());
   for (size_t part = 0; part < model.parts.size(); ++part) {
     RayDistances(model.parts[part], view, ray_distances[part]);
   }
@@ -108,7 +109,7 @@ std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
     const float own = std::abs(ray_distances[part][k]);
     if (static_cast<double>(own) > kRayReach_m) return false;
     return std::all_of(ray_distances.begin(), ray_distances.end(),
-                       [&](const Distances& d) { return std::abs(d[k]) >= own; });
+                       [&](const BlockDistances& d) { return std::abs(d[k]) >= own; });
   };
   std::vector<Superquadric> refitted = model.parts;
   AdaptiveConfig loose = fit;
@@ -120,8 +121,9 @@ std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
         view.points_F, [&](int i) { return (part > 0 || i % 2 == 0) && model.Nearest(i) == part; });
     if (points.size < kParameters) continue;
     const PointBlock rays = Subset(view.rays_F, [&](int i) { return ray_of(part, i); });
-    const AdaptiveProblem problem(points, rays, view.scene, UprightAxis(shape, view.scene.table),
-                                  part == 0 ? fit : loose);
+    AdaptiveProblem problem(points, rays, view.scene, UprightAxis(shape, view.scene.table),
+                            part == 0 ? fit : loose);
+    problem.set_search_steps(kSearchSteps);
     shape =
         Minimise(problem, shape, BoundsOf(shape, fit, min_semi_axis_m), {iterations, 1e-4}).shape;
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
+#include "services/base/rim.h"
 #include "services/pose/adaptive_problem.h"
 #include "services/pose/distance_kernel.h"
 #include "services/pose/superquadric.h"
@@ -12,8 +14,9 @@ namespace beckon::pose {
 
 /// What is known of an object whose parts are looked for.
 struct PartsView {
-  PointBlock points_F;  // a sample of the object's
-  PointBlock rays_F;    // its outline, unit directions; empty until a part is tried
+  PointBlock points_F;              // a sample of the object's
+  PointBlock rays_F;                // its outline, unit directions; empty until a part is tried
+  std::span<const RimPoint> rim_F;  // what the image shows around it; empty where not known
   TableTopScene scene;
   Eigen::Vector3d up;    // unit, F
   double noise_m = 0;    // the camera's, at the object's distance
@@ -23,13 +26,10 @@ struct PartsView {
   double foreign_m() const { return 3 * outside_m; }
 };
 
-/// A distance a point, aligned as the kernels store them.
-struct alignas(32) Distances : std::array<float, kBlockSize> {};
-
 struct PartModel {
-  std::vector<Superquadric> parts;     // the main body first
-  std::vector<Distances> distances_m;  // of every point from every part, signed
-  double variance_m2 = 0;              // the camera's and that of the points about the union
+  std::vector<Superquadric> parts;          // the main body first
+  std::vector<BlockDistances> distances_m;  // of every point from every part, signed
+  double variance_m2 = 0;                   // the camera's and that of the points about the union
 
   /// Signed distance of point `i` from the union: that of the part it is deepest in or nearest to.
   float DistanceOf(int i) const;

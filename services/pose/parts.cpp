@@ -37,7 +37,7 @@ PointBlock Sample(const PointList& points) {
 }
 
 double MedianDistance(const PartModel& model, int size) {
-  Distances magnitudes;
+  BlockDistances magnitudes;
   for (int i = 0; i < size; ++i) magnitudes[static_cast<size_t>(i)] = std::abs(model.DistanceOf(i));
   const auto middle = magnitudes.begin() + size / 2;
   std::nth_element(magnitudes.begin(), middle, magnitudes.begin() + size);
@@ -138,7 +138,7 @@ class Search {
  private:
   PartModel Alternate(PartModel model) {
     if (view_.rays_F.size == 0) {
-      view_.rays_F = TraceSilhouette(points_, {}, view_.scene.viewpoint, view_.scene.table,
+      view_.rays_F = TraceSilhouette(points_, view_.rim_F, view_.scene.viewpoint, view_.scene.table,
                                      {fit_.outline_rays / 2, fit_.pixel_rad, fit_.table_margin_m})
                          .rays_F;
     }
@@ -160,12 +160,14 @@ class Search {
 }  // namespace
 
 std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
-                                    const Eigen::Vector3d& viewpoint_F, const Superquadric& single,
+                                    const Eigen::Vector3d& viewpoint_F,
+                                    std::span<const RimPoint> rim_F, const Superquadric& single,
                                     const AdaptiveConfig& fit, const PartsConfig& config) {
   if (config.most_parts < 2 || points_F.size() < 2 * static_cast<size_t>(config.min_points))
     return {};
   PartsView view;
   view.points_F = Sample(points_F);
+  view.rim_F = rim_F;
   view.scene = {table_F, viewpoint_F, single.semi_axes.array().log().sum()};
   view.up = table_F ? table_F->normal : Eigen::Vector3d(single.X_FO.linear().col(2));
   view.noise_m = CameraNoise((single.X_FO.translation() - viewpoint_F).norm());

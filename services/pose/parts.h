@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "services/base/geometry.h"
+#include "services/base/rim.h"
 #include "services/pose/fit_adaptive.h"
 #include "services/pose/fit_stage.h"
 #include "services/pose/superquadric.h"
@@ -20,7 +22,7 @@ struct PartsConfig {
   double outside_sigmas = 3;   // of the camera's noise
   double outside_medians = 3;  // of the median distance of all points
   // A part explains so many of the 512 points that are looked at, and this share of all.
-  int min_points = 12;
+  int min_points = 13;
   double min_share = 0.025;
   double min_protrusion_m =
       0.012;  // it reaches so far outside the main body: a lid's rim is no part
@@ -61,7 +63,8 @@ struct PartsConfig {
 /// inside of a bowl), and on the side of the part that faces the camera (a hollow shows the other
 /// side).
 std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
-                                    const Eigen::Vector3d& viewpoint_F, const Superquadric& single,
+                                    const Eigen::Vector3d& viewpoint_F,
+                                    std::span<const RimPoint> rim_F, const Superquadric& single,
                                     const AdaptiveConfig& fit, const PartsConfig& config);
 
 }  // namespace beckon::pose

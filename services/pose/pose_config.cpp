@@ -51,6 +51,24 @@ void ReadMultiscale(ConfigTable table, MultiscaleConfig& c) {
   table.Get("max_taper", c.max_taper, 0, 0.9);
 }
 
+void ReadParts(ConfigTable table, PartsConfig& c) {
+  table.Get("most_parts", c.most_parts, 1, 10);
+  table.Get("outside_m", c.outside_m, 1e-4, 1);
+  table.Get("outside_sigmas", c.outside_sigmas, 0, 100);
+  table.Get("outside_medians", c.outside_medians, 0, 100);
+  table.Get("min_points", c.min_points, kParameters, 512);
+  table.Get("min_share", c.min_share, 0, 1);
+  table.Get("min_protrusion_m", c.min_protrusion_m, 0, 1);
+  table.Get("neck_width", c.neck_width, 0, 1);
+  table.Get("neck_height_m", c.neck_height_m, 0, 1);
+  table.Get("astray_sigmas", c.astray_sigmas, 1, 100);
+  table.Get("round_share", c.round_share, 0, 1);
+  table.Get("rounds", c.rounds, 1, 100);
+  table.Get("iterations", c.iterations, 1, 1000);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("witnesses", c.witnesses, 2, 512);
+}
+
 void ReadGripper(ConfigTable table, GripperConfig& c) {
   table.Get("max_opening_m", c.max_opening_m, 0.001, 1);
   table.Get("finger_depth_m", c.finger_depth_m, 0.001, 1);
@@ -78,6 +96,7 @@ Result<PoseConfig> ReadPoseConfig(ConfigTable table) {
   limits.Get("max_radial_distance_m", config.fit.max_radial_distance_m, 0, 1);
   ReadAdaptive(table.Section("adaptive"), config.fit.adaptive);
   ReadMultiscale(table.Section("multiscale"), config.fit.multiscale);
+  ReadParts(table.Section("parts"), config.fit.parts);
   ReadGripper(table.Section("gripper"), config.gripper);
   if (Status finished = table.Finish(); !finished) return finished.error();
   return config;
