@@ -115,7 +115,7 @@ class Search {
     if (neck_height)
       candidates.push_back(BodyAndNeck(now.parts[0], *neck_height, view_, fit_, config_));
     candidates.push_back(WithProtrudingPart(now, view_, fit_, config_));
-    if (now.parts.size() == 1 && IsAstray(now, view_, config_)) {
+    if (now.parts.size() == 1) {
       if (const auto body = FindRoundBody(view_, config_.round_share)) {
         candidates.push_back(
             WithProtrudingPart(Judge({*body}, view_, view_.foreign_m()), view_, fit_, config_));

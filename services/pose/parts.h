@@ -30,8 +30,9 @@ struct PartsConfig {
   double neck_width = 0.72;
   double neck_height_m = 0.012;
   // Where the points lie this many times the camera's noise from the single shape, a part may have
-  // led it astray: then a round body is looked for that holds this share of them.
+  // led it astray though nothing sticks out.
   double astray_sigmas = 2.5;
+  // Least share of the points that an upright round body holds.
   double round_share = 0.35;
   int rounds = 2;      // of assigning points to parts and refitting each
   int iterations = 6;  // of a part's refit
@@ -53,15 +54,13 @@ struct PartsConfig {
 /// Where a part may be is told by the points, not by gaps between them (occluders leave gaps):
 /// - points that stick out of the surface, in one connected group;
 /// - a neck: the outline's width falls in a step rather than evenly, and the points above it lie
-/// within the body below it
-///   drawn out upwards (where an occluder hides the upper corners of a box, they lie on its
-///   surface).
-/// - what sticks out of the upright cylinder that most points lie on, where the single shape fits
-/// badly: a
-///   handle may have drawn it out.
-/// In the end the points of a part lie outside the main body, are not seen through it (the far
-/// inside of a bowl), and on the side of the part that faces the camera (a hollow shows the other
-/// side).
+///   within the body below it drawn out upwards. Where an occluder hides the upper corners of a box
+///   they lie on its surface; a third may, and more where `rim_F` shows that nothing is hidden;
+/// - what sticks out of the upright cylinder that most points lie on, as a handle may have
+///   drawn the single shape out.
+/// In the end most points of a part lie outside the main body, some of them well outside, and none
+/// are seen through it or through the part (the far inside of a bowl), and the part's centre is not
+/// within the main body.
 std::vector<Superquadric> FindParts(const PointList& points_F, const std::optional<Plane>& table_F,
                                     const Eigen::Vector3d& viewpoint_F,
                                     std::span<const RimPoint> rim_F, const Superquadric& single,
