@@ -245,8 +245,7 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
                                       const PartsView& view, const AdaptiveConfig& fit,
                                       const PartsConfig& config) {
   constexpr double kDrawnOut_m = 0.5;  // well above any object
-  constexpr double kOwnShareInFullView = 0.6;
-  constexpr double kOwnShare = 0.35;  // of the points above, most that lie on the body drawn out
+  constexpr double kOwnShare = 0.35;   // of the points above, most that lie on the body drawn out
   const auto height_of = [&](int i) { return view.up.dot(view.points_F.at(i)); };
   const PointBlock lower =
       Collect(view, [&](int i) { return i % 2 == 0 && height_of(i) <= height; });  // half will do
@@ -267,8 +266,7 @@ std::vector<Superquadric> BodyAndNeck(const Superquadric& single, double height,
   for (int i = 0; i < upper.size; ++i) {
     own += std::abs(static_cast<double>(distances[static_cast<size_t>(i)])) < view.outside_m;
   }
-  const double allowed = OutlineIsOwnAbove(height, view) ? kOwnShareInFullView : kOwnShare;
-  if (own > allowed * upper.size) return {};
+  if (own > kOwnShare * upper.size && !OutlineIsOwnAbove(height, view)) return {};
   return WithGroup({body}, upper, view, fit, config);
 }
 

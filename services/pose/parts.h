@@ -55,7 +55,7 @@ struct PartsConfig {
 /// - points that stick out of the surface, in one connected group;
 /// - a neck: the outline's width falls in a step rather than evenly, and the points above it lie
 ///   within the body below it drawn out upwards. Where an occluder hides the upper corners of a box
-///   they lie on its surface; a third may, and more where `rim_F` shows that nothing is hidden;
+///   they lie on its surface; a third may, and all where `rim_F` shows that nothing is hidden;
 /// - what sticks out of the upright cylinder that most points lie on, as a handle may have
 ///   drawn the single shape out.
 /// In the end most points of a part lie outside the main body, some of them well outside, and none

@@ -55,6 +55,7 @@ class Scene {
     for (const Vector3d& p : Points()) points.push_back(p.cast<float>());
     return Fit({points, table_C_}, config);
   }
+  const Plane& table_C() const { return table_C_; }
   Vector3d InWorld(const Superquadric& part_C) const {
     return X_CW_.inverse() * part_C.X_FO.translation();
   }
@@ -164,6 +165,21 @@ TEST(PartsTest, AreNotABoxWithHiddenCorners) {
   scene.AddSolid(MakeShape({0.07, 0.03, 0.09}, 0.1, 0.1, {0, 0, 0.09}, {0, 0, 0.2}));
   scene.Hide([](long x, long y) { return y < -40 && std::abs(x) > 22; });
   EXPECT_TRUE(scene.FitAll().parts.empty());
+}
+
+TEST(PartsTest, AreTheFlushNeckOfAFlatBottleWhereTheImageShowsItsOutline) {
+  Scene scene;
+  scene.AddSolid(MakeShape({0.04, 0.02, 0.055}, 0.1, 0.1, {0, 0, 0.055}));
+  scene.AddSolid(MakeShape({0.014, 0.02, 0.03}, 0.1, 0.1, {0, 0, 0.14}));
+  const PointList points = scene.Points();
+  const FitResult alone = scene.FitAll();
+  const auto parts_with = [&](Beyond beyond) {
+    std::vector<RimPoint> rim;
+    for (const Vector3d& p : points) rim.push_back({p.cast<float>(), beyond});
+    return FindParts(points, scene.table_C(), Vector3d::Zero(), rim, alone.shape, {}, {});
+  };
+  EXPECT_EQ(parts_with(Beyond::kFarther).size(), 2u);
+  EXPECT_TRUE(parts_with(Beyond::kNearer).empty());
 }
 
 TEST(PartsTest, AreNotTheInsidesOfVessels) {
