@@ -49,8 +49,7 @@ AdaptiveCost AdaptiveProblem::CostOf(const Superquadric& shape) const {
 
 AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq) const {
   AdaptiveCost cost;
-  cost.points = AddKernel(
-      SumDistances(shape, points_, {config_.noise_m, config_.noise_m}), 1, eq);
+  cost.points = AddKernel(SumDistances(shape, points_, {config_.noise_m, config_.noise_m}), 1, eq);
   if (rays_.size > 0) {
     PointBlock deepest;
     FindDeepest(shape, scene_.viewpoint, rays_, search_steps_, deepest);
@@ -66,8 +65,7 @@ AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq
     cost.cut = AddCut(shape, eq);
     return cost;
   }
-  cost.volume =
-      config_.volume_prior_m2 * (shape.semi_axes.array().log().sum() - scene_.log_axes);
+  cost.volume = config_.volume_prior_m2 * (shape.semi_axes.array().log().sum() - scene_.log_axes);
   eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
   return cost;
 }
@@ -84,8 +82,7 @@ double AdaptiveProblem::AddSupport(const Superquadric& shape, NormalEquations& e
 // The shape reaches about as far beyond the cut as is expected.
 double AdaptiveProblem::AddCut(const Superquadric& shape, NormalEquations& eq) const {
   ParameterVector jacobian;
-  const double reach =
-      Reach(shape, cut_.normal_F, jacobian) - cut_.normal_F.dot(scene_.viewpoint);
+  const double reach = Reach(shape, cut_.normal_F, jacobian) - cut_.normal_F.dot(scene_.viewpoint);
   const double weight = config_.cut_pull_m2 / (cut_.sigma_m * cut_.sigma_m);
   const double surprise = reach - cut_.beyond_m;
   eq.Add(surprise, jacobian, weight);

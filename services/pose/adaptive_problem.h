@@ -14,7 +14,8 @@ namespace beckon::pose {
 struct TableTopScene {
   std::optional<Plane> table;  // normal up
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  double log_axes = 0;  // sum of the log semi-axes of what is seen: the prior on the volume is 0 there
+  double log_axes =
+      0;  // sum of the log semi-axes of what is seen: the prior on the volume is 0 there
 };
 
 /// A side on which the object goes on behind a plane through the viewpoint, nobody knows how far.
@@ -36,7 +37,12 @@ class AdaptiveProblem : public FitProblem {
   /// `upright`: the axis of the shape that is to be vertical.
   AdaptiveProblem(const PointBlock& points, const PointBlock& rays, const TableTopScene& scene,
                   int upright, const AdaptiveConfig& config, const Cut& cut = {})
-      : points_(points), rays_(rays), scene_(scene), upright_(upright), config_(config), cut_(cut) {}
+      : points_(points),
+        rays_(rays),
+        scene_(scene),
+        upright_(upright),
+        config_(config),
+        cut_(cut) {}
 
   NormalEquations Linearise(const Superquadric& shape) const override;
   AdaptiveCost CostOf(const Superquadric& shape) const;

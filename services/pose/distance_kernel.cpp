@@ -11,7 +11,7 @@ namespace {
 
 using namespace lanes;
 
-constexpr float kTiny = 1e-6f;     // relative size below which a coordinate counts as zero
+constexpr float kTiny = 1e-6f;      // relative size below which a coordinate counts as zero
 constexpr float kMaxShrink = 4.0f;  // keeps the Jacobian bounded near the centre
 constexpr int kEntries = kKernelParameters * (kKernelParameters + 1) / 2;
 
@@ -57,7 +57,8 @@ BECKON_LANES_INLINE Point ToShape(const Shape& s, const Point& p) {
   return Turn(s, {p.x - s.centre[0], p.y - s.centre[1], p.z - s.centre[2]});
 }
 
-// log((exp(2u/e) + exp(2v/e))^(e/2)), the weight of u, and the derivative by e (half the weights' entropy).
+// log((exp(2u/e) + exp(2v/e))^(e/2)), the weight of u, and the derivative by e (half the weights'
+// entropy).
 struct Norm2 {
   Lanes value, weight, by_e;
 };
@@ -133,8 +134,9 @@ BECKON_LANES_INLINE void Accumulate(const Shape& s, const PointBlock& points, fl
     const Lanes share = Load(&points.weight[static_cast<size_t>(i)]);
     const Lanes weight = share / x;
     sums.cost += share * scale2 * Log(x);
-    // Taken at the point of the surface on the same ray, p/g, where the slope is g times as large: log g
-    // changes by the same amount there, but for a translation, which moves it by g times as much.
+    // Taken at the point of the surface on the same ray, p/g, where the slope is g times as large:
+    // log g changes by the same amount there, but for a translation, which moves it by g times as
+    // much.
     const Lanes scale = Min(d.by_g, All(kMaxShrink)) * d.by_slope;
     const Lanes J[kKernelParameters] = {-scale * g.weight[0],
                                         -scale * g.weight[1],
@@ -156,7 +158,8 @@ BECKON_LANES_INLINE void Accumulate(const Shape& s, const PointBlock& points, fl
   }
 }
 
-// Minimum of the gauge along each ray, by golden section within the shape's reach: the gauge is convex.
+// Minimum of the gauge along each ray, by golden section within the shape's reach: the gauge is
+// convex.
 BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const PointBlock& rays,
                                  float reach, int steps, PointBlock& points) {
   constexpr float kGolden = 0.618034f;
@@ -165,7 +168,8 @@ BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const P
   for (int i = 0; i < rays.size; i += kLanes) {
     const Point d_F = LoadPoint(rays, i);
     const Point d = Turn(s, d_F);
-    // The point nearest to the centre, and a reach to either side of it; directions are of unit length.
+    // The point nearest to the centre, and a reach to either side of it; directions are of unit
+    // length.
     const Lanes middle = -(v_O.x * d.x + v_O.y * d.y + v_O.z * d.z);
     const auto value = [&](Lanes t) __attribute__((always_inline)) {
       return LogGaugeAt(s, {v_O.x + t * d.x, v_O.y + t * d.y, v_O.z + t * d.z});
@@ -193,20 +197,26 @@ BECKON_LANES_INLINE void Deepest(const Shape& s, const float* viewpoint, const P
   }
 }
 
+BECKON_LANES_INLINE void Distances(const Shape& s, const PointBlock& points, float* out) {
+  for (int i = 0; i < points.size; i += kLanes) {
+    Store(out + i, DistanceOf(GaugeAt(s, ToShape(s, LoadPoint(points, i)))).distance);
+  }
+}
+
 BECKON_LANES_INLINE void RadialDistances(const Shape& s, const PointBlock& points, Lanes& sum) {
   for (int i = 0; i < points.size; i += kLanes) {
     const Point p = ToShape(s, LoadPoint(points, i));
     const Lanes length = Sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-    sum += Load(&points.weight[static_cast<size_t>(i)]) * length *
-           Abs(1.0f - Exp(-LogGaugeAt(s, p)));
+    sum +=
+        Load(&points.weight[static_cast<size_t>(i)]) * length * Abs(1.0f - Exp(-LogGaugeAt(s, p)));
   }
 }
 
-// Each kernel is compiled twice: for every processor, and for those with eight lanes in hardware. Neither
-// fuses multiplications with additions, so both give the same bytes.
-#define BECKON_KERNEL(name, parameters, arguments)                             \
-  void name##Baseline parameters { name arguments; }                           \
-  BECKON_WIDE void name##Wide parameters { name arguments; }                   \
+// Each kernel is compiled twice: for every processor, and for those with eight lanes in hardware.
+// Neither fuses multiplications with additions, so both give the same bytes.
+#define BECKON_KERNEL(name, parameters, arguments)           \
+  void name##Baseline parameters { name arguments; }         \
+  BECKON_WIDE void name##Wide parameters { name arguments; } \
   void Run##name parameters { HasWideLanes() ? name##Wide arguments : name##Baseline arguments; }
 
 #if defined(__x86_64__)
@@ -227,6 +237,7 @@ BECKON_KERNEL(Deepest,
               (const Shape& s, const float* viewpoint, const PointBlock& rays, float reach,
                int steps, PointBlock& points),
               (s, viewpoint, rays, reach, steps, points))
+BECKON_KERNEL(Distances, (const Shape& s, const PointBlock& points, float* out), (s, points, out))
 BECKON_KERNEL(RadialDistances, (const Shape& s, const PointBlock& points, Lanes& sum),
               (s, points, sum))
 
@@ -279,6 +290,11 @@ void FindDeepest(const Superquadric& shape, const Eigen::Vector3d& viewpoint_F,
   points_F.weight = rays_F.weight;
   RunDeepest(Shape(shape), viewpoint.data(), rays_F, static_cast<float>(shape.semi_axes.norm()),
              steps, points_F);
+}
+
+void ComputeDistances(const Superquadric& shape, const PointBlock& points_F,
+                      BlockDistances& distances_m) {
+  RunDistances(Shape(shape), points_F, distances_m.data());
 }
 
 double SumRadialDistances(const Superquadric& shape, const PointBlock& points_F) {

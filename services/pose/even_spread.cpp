@@ -85,12 +85,14 @@ SpreadPoints SpreadEvenly(std::span<const Eigen::Vector3d> points, int count) {
   }
   // The grid's size is found on a part of the points.
   const size_t step = std::max<size_t>(points.size() / (4 * most), 1);
-  double voxel_m = std::max(LongestExtent(points, step) / std::sqrt(static_cast<double>(most)), 1e-9);
+  double voxel_m =
+      std::max(LongestExtent(points, step) / std::sqrt(static_cast<double>(most)), 1e-9);
   VoxelTable table;
   constexpr int kTries = 3;
   for (int tries = 0; tries < kTries; ++tries) {
     const auto voxels = table.Fill(points, step, voxel_m);
-    const double ratio = voxels ? static_cast<double>(voxels->size()) / static_cast<double>(most) : 4;
+    const double ratio =
+        voxels ? static_cast<double>(voxels->size()) / static_cast<double>(most) : 4;
     if (ratio > 0.8 && ratio < 1.25) break;
     voxel_m *= std::sqrt(ratio);  // points lie on a surface
   }

@@ -68,8 +68,8 @@ Superquadric BoxOf(const PrincipalBox& box) {
   return shape;
 }
 
-// What the points alone tell of the parameters: the Gauss-Newton Hessian of their distances over the mean
-// squared distance.
+// What the points alone tell of the parameters: the Gauss-Newton Hessian of their distances over
+// the mean squared distance.
 ParameterMatrix InformationOf(const Superquadric& shape, const PointList& points) {
   NormalEquations eq;
   double squares = 0;
@@ -83,8 +83,8 @@ ParameterMatrix InformationOf(const Superquadric& shape, const PointList& points
   return ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()) / variance;
 }
 
-// Covariance of position and rotation: the block of the inverse information on all parameters but taper.
-// Directions without information get the variance of total ignorance through a weak prior.
+// Covariance of position and rotation: the block of the inverse information on all parameters but
+// taper. Directions without information get the variance of total ignorance through a weak prior.
 Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape,
                                            const ParameterMatrix& parameter_information) {
   constexpr int kUsed = kTaper;
@@ -191,11 +191,11 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   }
   result.shape = outcome.shape;
   result.ambiguous = outcome.ambiguous;
+  result.alternatives = outcome.alternatives;
   result.mean_radial_distance_m = MeanRadialDistanceOf(result.shape, points, kJudges);
   result.covariance = PoseCovariance(
-      result.shape, outcome.information
-                        ? *outcome.information
-                        : InformationOf(result.shape, Thinned(points, kWitnesses)));
+      result.shape, outcome.information ? *outcome.information
+                                        : InformationOf(result.shape, Thinned(points, kWitnesses)));
   if (!outcome.converged) {
     result.reason = "the fit was still improving when its iterations ran out";
   } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {
@@ -204,6 +204,10 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
              1e3 * result.mean_radial_distance_m, 1e3 * config.max_radial_distance_m);
   }
   result.converged = result.reason.empty();
+  if (config.method == Method::kAdaptive) {
+    result.parts = FindParts(points, input.table_F, input.viewpoint_F, input.rim_F, result.shape,
+                             config.adaptive, config.parts);
+  }
   return result;
 }
 

@@ -3,8 +3,8 @@
 #include "services/pose/fit_adaptive.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "services/pose/adaptive_problem.h"
 #include "services/pose/even_spread.h"
@@ -14,6 +14,10 @@
 
 namespace beckon::pose {
 namespace {
+
+constexpr int kCoarseSteps = 9, kFineSteps = 13;  // of the search for a ray's deepest point
+constexpr double kCoarseTolerance = 1e-3;
+constexpr double kLeastVariance_m2 = 4e-8;
 
 // Every so manieth of the points, at most `most`; the weights sum to 1.
 PointBlock Block(const SpreadPoints& spread, int most) {
@@ -29,45 +33,188 @@ PointBlock Block(const SpreadPoints& spread, int most) {
   return block;
 }
 
-// The outline as it is taken to be: whole, or cut off along a straight piece.
-struct View {
-  PointBlock rays;
-  PointBlock few_rays;  // for coarse fits
-  Cut cut;
-  double charge = 0;  // m^2, for the cut's improbability
-  double ragged = 0;  // m^2, what the cut's rays cost about their straight line
-};
-
-View CutAt(const Silhouette& silhouette, const Straight& straight, double distance,
-           const AdaptiveConfig& config) {
-  View view{silhouette.rays_F, {}, {straight.normal_F}, config.cut_nats * config.nat_m2};
-  const double width = straight.width_rad * distance;
-  view.cut.beyond_m = config.cut_beyond * width;
-  view.cut.sigma_m = std::max(config.cut_sigma * width, 1e-3);
-  const double ragged = straight.mean_square_rad * distance * distance;
-  for (int i : straight.rays) {
-    float& weight = view.rays.weight[static_cast<size_t>(i)];
-    const double scale2 = config.outline_noise_m * config.outline_noise_m;
-    view.ragged += static_cast<double>(weight) * config.outline_weight * scale2 * std::log1p(ragged / scale2);
-    weight = 0;
-  }
-  return view;
-}
-
+// Every third ray, for coarse fits.
 PointBlock EveryThird(const PointBlock& block) {
   PointBlock third;
-  for (int i = 0; i < block.size; i += 3) third.Add(block.at(i), 3.0 * static_cast<double>(block.weight[static_cast<size_t>(i)]));
+  for (int i = 0; i < block.size; i += 3) {
+    third.Add(block.at(i), 3.0 * static_cast<double>(block.weight[static_cast<size_t>(i)]));
+  }
   third.Pad();
   return third;
 }
 
+// The outline as it is taken to be: whole, or cut off on a side.
+struct View {
+  PointBlock rays, few_rays;
+  Cut cut = {};
+  double charge = 0;  // m^2, for the cut's improbability
+  double ragged = 0;  // m^2, what the cut's rays cost about their own straight line
+};
+
+View WholeView(const Silhouette& silhouette) {
+  return {silhouette.rays_F, EveryThird(silhouette.rays_F)};
+}
+
+// `distance_m`: of the object from the viewpoint.
+View CutView(const Silhouette& silhouette, const Straight& straight, double distance_m,
+             const AdaptiveConfig& config) {
+  View view{silhouette.rays_F, {}};
+  const double width_m = straight.width_rad * distance_m;
+  view.cut = {straight.normal_F, config.cut_beyond * width_m,
+              std::max(config.cut_sigma * width_m, 1e-3)};
+  view.charge = config.cut_charge_m2;
+  const double scale2 = config.outline_noise_m * config.outline_noise_m;
+  const double ragged = straight.mean_square_rad * distance_m * distance_m;
+  const double cost_of_ray = config.outline_weight * scale2 * std::log1p(ragged / scale2);
+  for (int i : straight.rays) {
+    float& weight = view.rays.weight[static_cast<size_t>(i)];
+    view.ragged += static_cast<double>(std::exchange(weight, 0.0f)) * cost_of_ray;
+  }
+  view.few_rays = EveryThird(view.rays);
+  return view;
+}
+
+// A shape that was fitted under one view.
 struct Candidate {
   LmResult result;
-  size_t view;
-  double cost;
-  double points_cost, outline_cost;  // m^2
-  double outline_share;  // what the outline's weight is to be multiplied by
+  const View* view;
+  AdaptiveCost cost;
+  double outline_share;  // what the outline is worth: 1 where it fits, less the worse it does
+  double score;          // m^2; the least wins
 };
+
+bool Better(const Candidate& a, const Candidate& b) { return a.score < b.score; }
+
+// Whether two shapes are clearly not the same, told from their numbers alone.
+bool LookDifferent(const Superquadric& a, const Superquadric& b) {
+  constexpr double kMove_m = 0.004, kGrowth = 0.1;
+  const double moved = (a.X_FO.translation() - b.X_FO.translation()).norm();
+  const double grown = std::abs(std::log(a.semi_axes.prod() / b.semi_axes.prod()));
+  return moved > kMove_m || grown > kGrowth;
+}
+
+// One object's fit: what all its stages use.
+class Fitter {
+ public:
+  Fitter(const SpreadPoints& spread, const Superquadric& filling, const TableTopScene& scene,
+         const AdaptiveConfig& config)
+      : fine_(Block(spread, kBlockSize)),
+        coarse_(Block(spread, config.coarse_points)),
+        scene_(scene),
+        config_(config) {
+    const double reach = filling.semi_axes.maxCoeff();
+    bounds_.min_axes.setConstant(config.min_semi_axis_m);
+    bounds_.max_axes.setConstant(
+        std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
+    bounds_.min_epsilon = config.min_epsilon;
+    bounds_.max_epsilon = config.max_epsilon;
+  }
+
+  Candidate FitCoarsely(const Superquadric& start, const View& view, int iterations) {
+    return FitTo(coarse_, view.few_rays, kCoarseSteps, start, view, 1,
+                 {iterations, kCoarseTolerance});
+  }
+  Candidate Refine(const Candidate& c) {
+    return FitTo(fine_, c.view->rays, kFineSteps, c.result.shape, *c.view, c.outline_share,
+                 {config_.fine_iterations, config_.fine_tolerance});
+  }
+  const std::vector<int>& iterations() const { return iterations_; }
+
+ private:
+  // The noise of the outline is not known, so its cost counts by the logarithm, as if its scale had
+  // been estimated with it; the minimisation takes the slope of that, outline_share, from the stage
+  // before.
+  Candidate FitTo(const PointBlock& points, const PointBlock& rays, int steps,
+                  const Superquadric& start, const View& view, double outline_share,
+                  const LmOptions& options) {
+    AdaptiveProblem problem(points, rays, scene_, UprightAxis(start, scene_.table), config_,
+                            view.cut);
+    problem.set_search_steps(steps);
+    problem.set_outline_share(outline_share);
+    Candidate c{Minimise(problem, start, bounds_, options), &view, {}, 1, 0};
+    iterations_.push_back(c.result.iterations);
+    problem.set_outline_share(1);
+    c.cost = problem.CostOf(c.result.shape);
+    const double outline = (c.cost.outline + view.ragged) / config_.outline_trust_m2;
+    c.outline_share = 1 / (1 + outline);
+    c.score = c.cost.points + c.cost.support + c.cost.tilt + c.cost.volume +
+              config_.outline_trust_m2 * std::log1p(outline) + view.charge;
+    return c;
+  }
+
+  const PointBlock fine_, coarse_;
+  const TableTopScene& scene_;
+  const AdaptiveConfig& config_;
+  FitBounds bounds_;
+  std::vector<int> iterations_;
+};
+
+// The whole outline or the cut that is seen, then, where nobody knows what lies beyond the outline,
+// what may be cuts.
+std::vector<View> ViewsOf(const Silhouette& silhouette, double distance_m,
+                          const AdaptiveConfig& config) {
+  std::vector<View> views;
+  if (silhouette.cut) {
+    views.push_back(CutView(silhouette, *silhouette.cut, distance_m, config));
+    views[0].charge = 0;  // nothing improbable: it is seen
+    return views;
+  }
+  views.push_back(WholeView(silhouette));
+  if (!config.cut_hypotheses) return views;
+  for (const Straight& s : silhouette.straights) {
+    views.push_back(CutView(silhouette, s, distance_m, config));
+  }
+  return views;
+}
+
+// Coarse fits from all starts under the first view, and from the best two under the others; best
+// first.
+std::vector<Candidate> Explore(Fitter& fitter, const std::vector<Superquadric>& starts,
+                               std::vector<View>& views, const AdaptiveConfig& config) {
+  std::vector<Candidate> candidates;
+  for (const Superquadric& start : starts) {
+    candidates.push_back(fitter.FitCoarsely(start, views[0], config.coarse_iterations));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), Better);
+  // An outline that no whole shape explains is more likely to be cut.
+  const double charge_share = std::pow(candidates[0].outline_share, 3);
+  const Superquadric bases[2] = {candidates[0].result.shape, candidates[1].result.shape};
+  for (size_t i = 1; i < views.size(); ++i) {
+    views[i].charge *= charge_share;
+    for (const Superquadric& base : bases) {
+      candidates.push_back(fitter.FitCoarsely(base, views[i], config.cut_iterations));
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), Better);
+  return candidates;
+}
+
+// The best candidate to all points, and the next that is of another shape if it is about as good;
+// best first.
+std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& candidates,
+                                  double runner_up) {
+  std::vector<Candidate> refined{fitter.Refine(candidates[0])};
+  for (size_t i = 1; i < candidates.size(); ++i) {
+    if (candidates[i].score > runner_up * candidates[0].score) break;
+    if (!LookDifferent(candidates[0].result.shape, candidates[i].result.shape)) continue;
+    refined.push_back(fitter.Refine(candidates[i]));
+    break;
+  }
+  std::stable_sort(refined.begin(), refined.end(), Better);
+  return refined;
+}
+
+// The Hessian of the cost, a mean of squares, in units of information: neighbours err together, so
+// that hundreds of points do not know as much as if they were independent, and how badly the
+// outline fits tells how much else is not in the model.
+ParameterMatrix InformationOf(const Candidate& c, size_t n_points, const AdaptiveConfig& config) {
+  const double unexplained = 1 + c.cost.outline / config.outline_clean_m2;
+  const double witnesses =
+      config.witnesses * std::min(static_cast<double>(n_points) / config.fine_points, 1.0);
+  const double variance = unexplained * unexplained * std::max(c.cost.points, kLeastVariance_m2);
+  return ParameterMatrix(c.result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
+         (witnesses / variance);
+}
 
 // Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
 // foot is hidden behind another object, or it stands on one, and how far down it goes is not known.
@@ -94,93 +241,34 @@ bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Tabl
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
                           const Eigen::Vector3d& viewpoint_F, std::span<const RimPoint> rim_F,
                           const AdaptiveConfig& config) {
-  const SpreadPoints weighted = SpreadEvenly(points_F, config.fine_points);
-  const PointList& spread = weighted.points;
-  const std::vector<Superquadric> starts = Starts(spread, table_F);
-  const double reach = starts[0].semi_axes.maxCoeff();
-  const PointBlock fine = Block(weighted, kBlockSize), coarse = Block(weighted, config.coarse_points);
+  const SpreadPoints spread = SpreadEvenly(points_F, config.fine_points);
+  const std::vector<Superquadric> starts = Starts(spread.points, table_F);
   const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
   const Silhouette silhouette =
       TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});
-  FitBounds bounds;
-  bounds.min_axes.setConstant(config.min_semi_axis_m);
-  bounds.max_axes.setConstant(std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
-  bounds.min_epsilon = config.min_epsilon;
-  bounds.max_epsilon = config.max_epsilon;
+  const double distance_m = (starts[0].X_FO.translation() - viewpoint_F).norm();
+  std::vector<View> views = ViewsOf(silhouette, distance_m, config);
+
+  Fitter fitter(spread, starts[0], scene, config);
+  const std::vector<Candidate> refined =
+      RefineBest(fitter, Explore(fitter, starts, views, config), config.runner_up);
+  const Candidate& best = refined[0];
 
   MethodOutcome outcome;
-  const Eigen::Vector3d middle = spread[spread.size() / 2];
-  const double distance = (middle - viewpoint_F).norm();
-  std::vector<View> views{{silhouette.rays_F, {}, {}, 0}};
-  if (silhouette.cut) {
-    views[0] = CutAt(silhouette, *silhouette.cut, distance, config);
-    views[0].charge = 0;  // nothing improbable: it was seen
-  } else if (config.cut_hypotheses) {
-    for (const Straight& s : silhouette.straights) views.push_back(CutAt(silhouette, s, distance, config));
+  outcome.shape = best.result.shape;
+  outcome.converged = best.result.converged;
+  outcome.iterations = fitter.iterations();
+  outcome.information = InformationOf(best, points_F.size(), config);
+  for (size_t i = 1; i < refined.size(); ++i) {
+    const Superquadric& other = refined[i].result.shape;
+    if (refined[i].score < kAboutAsGood * best.score &&
+        ShapeDifference(best.result.shape, other) > kOtherShape_m) {
+      outcome.alternatives.push_back(other);
+    }
   }
-  for (View& view : views) view.few_rays = EveryThird(view.rays);
-  LmOptions options{config.coarse_iterations, 1e-3};
-  std::vector<Candidate> candidates;
-  const auto fit = [&](const PointBlock& points, size_t view, const Superquadric& start, double share) {
-    const bool is_coarse = &points == &coarse;
-    AdaptiveProblem problem(points, is_coarse ? views[view].few_rays : views[view].rays, scene, UprightAxis(start, table_F), config,
-                            views[view].cut);
-    problem.set_outline_share(share);
-    problem.set_search_steps(is_coarse ? 9 : 13);
-    const LmResult result = Minimise(problem, start, bounds, options);
-    outcome.iterations.push_back(result.iterations);
-    problem.set_outline_share(1);
-    const AdaptiveCost cost = problem.CostOf(result.shape);
-    const double outline = (cost.outline + views[view].ragged) / config.outline_trust_m2;
-    return Candidate{result, view,
-                     cost.points + cost.support + cost.tilt + cost.volume + views[view].charge +
-                         config.outline_trust_m2 * std::log1p(outline),
-                     cost.points, cost.outline, 1 / (1 + outline)};
-  };
-  const auto cheaper = [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; };
-  for (const Superquadric& start : starts) candidates.push_back(fit(coarse, 0, start, 1));
-  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
-  options.max_iterations = config.cut_iterations;
-  // An outline that no whole shape explains is more likely to be cut.
-  const double trust = std::pow(candidates[0].outline_share, 3);
-  for (View& view : views) view.charge *= trust;
-  const std::array bases{candidates[0].result.shape, candidates[1].result.shape};
-  for (size_t view = 1; view < views.size(); ++view) {
-    for (const Superquadric& base : bases) candidates.push_back(fit(coarse, view, base, 1));
-  }
-  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
-
-  options = {config.fine_iterations, config.fine_tolerance};
-  std::vector<Candidate> best;
-  for (size_t i = 0; i < 2; ++i) {
-    if (i > 0 && candidates[i].cost > config.runner_up * candidates[0].cost) break;
-    best.push_back(fit(fine, candidates[i].view, candidates[i].result.shape, candidates[i].outline_share));
-  }
-  std::stable_sort(best.begin(), best.end(), cheaper);
-  if (getenv("BDBG")) {  // DEBUG
-    const auto show = [&](const char* w, const Candidate& c, const PointBlock& pts) {
-      const AdaptiveProblem problem(pts, views[c.view].rays, scene, UprightAxis(c.result.shape, table_F), config, views[c.view].cut);
-      const AdaptiveCost k = problem.CostOf(c.result.shape);
-      const auto& s = c.result.shape;
-      printf("%s view %zu cost %.3f charge %.3f pts %.3f out %.3f sup %.3f tilt %.3f cut %.3f vol %.3f a %.3f %.3f %.3f e %.2f %.2f\n", w, c.view, c.cost*1e6, views[c.view].charge*1e6, k.points*1e6,k.outline*1e6,k.support*1e6,k.tilt*1e6,k.cut*1e6,k.volume*1e6,s.semi_axes[0],s.semi_axes[1],s.semi_axes[2],s.epsilon[0],s.epsilon[1]);
-    };
-    for (size_t v=1; v<views.size(); ++v) { const auto& s=silhouette.straights[v-1]; printf("view %zu: rays %zu of %d normal %.2f %.2f width %.3f beyond %.3f rms px %.2f\n", v, s.rays.size(), silhouette.rays_F.size, s.normal_F[0], s.normal_F[1], s.width_rad*distance, views[v].cut.beyond_m, std::sqrt(s.mean_square_rad)*525); }
-    for (auto& c : candidates) show(" c", c, coarse);
-    for (auto& c : best) show(" B", c, fine);
-  }
-  outcome.shape = best[0].result.shape;
-  outcome.converged = best[0].result.converged;
-  const bool other_shape = best.size() > 1 && MeanRadialDistance(best[1].result.shape, spread) <
-                               kAboutAsGood * MeanRadialDistance(best[0].result.shape, spread) &&
-                           ShapeDifference(best[0].result.shape, best[1].result.shape) > kOtherShape_m;
-  // The cost is a mean of squared distances; neighbours err together, so that hundreds of points do not know
-  // as much as if they were independent. How badly the outline fits tells how much else is not in the model.
-  const double unexplained = 1 + best[0].outline_cost / config.outline_clean_m2;
-  outcome.information =
-      ParameterMatrix(best[0].result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
-      (config.witnesses / (unexplained * unexplained * std::max(best[0].points_cost, 4e-8)));
-  outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, spread, scene, config.unseen_foot_m);
+  outcome.ambiguous = !outcome.alternatives.empty() ||
+                      FootIsUnseen(outcome.shape, spread.points, scene, config.unseen_foot_m);
   return outcome;
 }
 

@@ -24,7 +24,9 @@ struct MethodOutcome {
   bool converged = false;  // the last minimisation came to rest
   bool ambiguous = false;
   std::vector<int> iterations;
-  // Where the method knows it: the information on its parameters, of which the covariance is the inverse.
+  std::vector<Superquadric> alternatives;  // what makes it ambiguous, best first; may be empty
+  // Where the method knows it: the information on its parameters, of which the covariance is the
+  // inverse.
   std::optional<ParameterMatrix> information;
 };
 

@@ -1,5 +1,6 @@
-// Eight floats at a time, and their logarithm and exponential: plain arithmetic of the compiler's vectors,
-// so that every machine does the same operations in the same order and gives the same bytes.
+// Eight floats at a time, and their logarithm and exponential: plain arithmetic of the compiler's
+// vectors, so that every machine does the same operations in the same order and gives the same
+// bytes.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,8 @@ double Phase(const std::vector<Eigen::Vector2d>& image, int axis) {
   return std::atan2(s, c) / (2 * std::numbers::pi);
 }
 
-// The outermost points of each line of the grid along `axis` (0: rows, their leftmost and rightmost points).
+// The outermost points of each line of the grid along `axis` (0: rows, their leftmost and rightmost
+// points).
 struct Extremes {
   std::vector<double> lo, hi;  // px along `axis`
   std::vector<int> lo_point, hi_point;
@@ -62,8 +63,8 @@ void FindExtremes(const std::vector<Eigen::Vector2d>& image, int axis, double fi
   }
 }
 
-// Whether the outline runs across the lines here, by no more than 45 degrees: else the other direction's
-// lines see it better.
+// Whether the outline runs across the lines here, by no more than 45 degrees: else the other
+// direction's lines see it better.
 bool RunsAcross(const std::vector<double>& extreme, const std::vector<int>& point, size_t line) {
   constexpr size_t kReach = 3;
   size_t before = line, after = line;
@@ -105,7 +106,8 @@ struct Chord {
   double length;
 };
 
-// Chords of the hull from which no vertex between their ends is farther than `tolerance`, longest first.
+// Chords of the hull from which no vertex between their ends is farther than `tolerance`, longest
+// first.
 std::vector<Chord> StraightChords(const std::vector<Eigen::Vector2d>& hull, double tolerance) {
   std::vector<Chord> chords;
   const size_t n = hull.size();
@@ -228,7 +230,8 @@ Silhouette SilhouetteOfRim(std::span<const RimPoint> rim_F, const Eigen::Vector3
   std::vector<Eigen::Vector3d> rays;
   for (size_t i = 0; i < n && rays.size() < static_cast<size_t>(kBlockSize); ++i) {
     if (rim_F[i].beyond != Beyond::kFarther) continue;
-    if (table_F && table_F->Distance(rim_F[i].point.cast<double>()) < config.table_margin_m) continue;
+    if (table_F && table_F->Distance(rim_F[i].point.cast<double>()) < config.table_margin_m)
+      continue;
     const Eigen::Vector2d along = image[(i + 1) % n] - image[(i + n - 1) % n];
     const Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()) * (area > 0 ? 1 : -1);
     const Eigen::Vector2d q = (image[i] + 0.5 * outward.stableNormalized()) * config.pixel_rad;
@@ -243,9 +246,9 @@ Silhouette SilhouetteOfRim(std::span<const RimPoint> rim_F, const Eigen::Vector3
 
 }  // namespace
 
-Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<const RimPoint> rim_F,
-                           const Eigen::Vector3d& viewpoint_F, const std::optional<Plane>& table_F,
-                           const SilhouetteConfig& config) {
+Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F,
+                           std::span<const RimPoint> rim_F, const Eigen::Vector3d& viewpoint_F,
+                           const std::optional<Plane>& table_F, const SilhouetteConfig& config) {
   Silhouette silhouette;
   Eigen::Vector3d sight = Eigen::Vector3d::Zero();
   for (const auto& p : points_F) sight += p - viewpoint_F;
@@ -287,16 +290,15 @@ Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F, std::span<
         if (!RunsAcross(high ? e.hi : e.lo, high ? e.hi_point : e.lo_point, line)) continue;
         Eigen::Vector2d outward = Eigen::Vector2d::Zero();
         outward[axis] = high ? 0.5 : -0.5;
-        const bool usable =
-            !table_F ||
-            table_F->Distance(points_F[static_cast<size_t>(point)]) >= config.table_margin_m;
+        const bool usable = !table_F || table_F->Distance(points_F[static_cast<size_t>(point)]) >=
+                                            config.table_margin_m;
         if (usable) outline.push_back({border.back(), outward, usable});
       }
     }
   }
   if (outline.empty()) return silhouette;
-  const size_t step =
-      (outline.size() + static_cast<size_t>(config.most_rays) - 1) / static_cast<size_t>(config.most_rays);
+  const size_t step = (outline.size() + static_cast<size_t>(config.most_rays) - 1) /
+                      static_cast<size_t>(config.most_rays);
   std::vector<OutlinePoint> chosen;
   for (size_t i = 0; i < outline.size(); i += step) chosen.push_back(outline[i]);
   for (const OutlinePoint& o : chosen) {
