@@ -1,0 +1,22 @@
+"""All studies of the fits, those for which there is what they need."""
+
+from pose.clouds import Tools, make_sets
+from pose.method_studies import side_by_side
+from pose.size_studies import number_of_points, voxel_sizes
+
+SEEDS = (7001, 7002, 7003)
+COUNT = 60  # clouds a set and seed
+
+
+def run_all(lab, report, tools_folder, data, capture):
+    """Whether nothing was left out."""
+    if not Tools.are_in(tools_folder):
+        report.skip("everything", f"the generator and the scorer of clouds are not in {tools_folder}; set "
+                    "BECKON_POSE_TOOLS")
+        return False
+    tools = Tools(tools_folder)
+    clouds = make_sets(lab, tools, SEEDS[:1] if lab.quick else SEEDS, 6 if lab.quick else COUNT)
+    scores = side_by_side(lab, report, clouds)
+    voxel_sizes(lab, report, clouds)
+    number_of_points(lab, report, clouds)
+    return True
