@@ -113,24 +113,24 @@ def of_size(points, count, rng):
 
 
 def judge(lab, what, fitted):
-    """`fitted`: pairs of a CloudSet and its poses. Scores, a dict a cloud, in that order."""
-    jobs = [(made, pose) for made, poses in fitted for pose in poses]
-    truths = {made: made.truth() for made, _ in fitted}
-    scores = [None] * len(jobs)
+    """`fitted`: (name, CloudSet, its poses). Scores by name, a dict a cloud, in order."""
+    truths = {made: made.truth() for _, made, _ in fitted}
+    jobs = [(name, made, pose, truths[made][Path(pose["file"]).name]) for name, made, poses in fitted for pose in poses]
+    judged = [None] * len(jobs)
     with ProcessPoolExecutor(lab.processes, initializer=_leave_interrupts_to_parent) as pool:
-        pending = {pool.submit(_judge_one, made.folder, pose, truths[made][Path(pose["file"]).name]): i
-                   for i, (made, pose) in enumerate(jobs)}
+        pending = {pool.submit(_judge_one, made.folder, pose, truth): i
+                   for i, (_, made, pose, truth) in enumerate(jobs)}
         try:
             for done, future in enumerate(as_completed(pending), 1):
-                made, pose = jobs[pending[future]]
-                truth = truths[made][Path(pose["file"]).name]
-                scores[pending[future]] = {
-                    **future.result(), "set": made.kind, "seed": made.seed, "kind": truth["kind"], "pose": pose,
-                    "truth": truth, "time_ms": pose["time_ms"]}
+                judged[pending[future]] = future.result()
                 progress(f"judging, {what}", done, len(jobs), "fits")
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
+    scores = {}
+    for (name, made, pose, truth), score in zip(jobs, judged):
+        scores.setdefault(name, []).append({**score, "set": made.kind, "seed": made.seed, "kind": truth["kind"],
+                                            "pose": pose, "truth": truth, "time_ms": pose["time_ms"]})
     return scores
 
 

@@ -19,12 +19,13 @@ smoothing of its authors' program (`[multiscale] smooth_m = 0.03`)."""
 
 def side_by_side(lab, report, clouds):
     """Scores by (set, way)."""
-    scores = {}
+    fitted = []
     for way in WAYS:
         for kind in ("clear", "hard"):
             sets = [made for made in clouds.sets if made.kind == kind]
-            poses = lab.fit(f"{way}, {kind}", [Fit(made.clouds, way, lab.repeats(way)) for made in sets])
-            scores[kind, way] = judge(lab, f"{way}, {kind}", list(zip(sets, poses)))
+            poses = lab.fit(f"{way}, {kind} clouds", [Fit(made.clouds, way, lab.repeats(way)) for made in sets])
+            fitted += [((kind, way), made, told) for made, told in zip(sets, poses)]
+    scores = judge(lab, "clear and hard clouds", fitted)
     seeds = sorted({made.seed for made in clouds.sets})
     parts = [TEXT.format(count=len(scores["clear", "adaptive"]), seeds=", ".join(map(str, seeds))),
              plot_positions(report, scores)]

@@ -30,26 +30,22 @@ def voxel_sizes(lab, report, clouds):
     made = next(made for made in clouds.sets if made.kind == "clear")
     lines = made.lines()[:6 if lab.quick else 30]
     voxels_mm = VOXELS_MM[::3] if lab.quick else VOXELS_MM
-    scores = {}
+    fits = {}
     for voxel_mm in voxels_mm:
         path = write_list(lab.folder / f"voxels-{voxel_mm}", made, lines,
                           lambda points: voxel_centroids(points, 1e-3 * voxel_mm) if voxel_mm else points)
         for way in LEVELLED:
             config = ONE_LEVEL if way == "multiscale" else ""
-            scores[way, voxel_mm] = judged(lab, made, f"{way}, voxels of {voxel_mm} mm", Fit(
-                path, way, lab.repeats(way), config=config))
-    levels = judged(lab, made, "multiscale, its levels", Fit(lab.folder / "voxels-0/list.jsonl", "multiscale",
-                                                             lab.repeats("multiscale")))
+            fits[way, voxel_mm] = Fit(path, way, lab.repeats(way), config=config)
+    fits["levels"] = Fit(fits["multiscale", 0].clouds, "multiscale", lab.repeats("multiscale"))
+    poses = lab.fit("voxel sizes", fits.values())
+    scores = judge(lab, "voxel sizes", [(name, made, told) for name, told in zip(fits, poses)])
     rows = [[f"`{way}`", f"{voxel_mm} mm" if voxel_mm else "all points", *figures(scores[way, voxel_mm])]
             for way in LEVELLED for voxel_mm in voxels_mm]
-    rows.append(["`multiscale`", "30, 23, 16.5 mm, all", *figures(levels)])
+    rows.append(["`multiscale`", "30, 23, 16.5 mm, all", *figures(scores["levels"])])
     report.section("Effect of the voxel size", VOXEL_TEXT.format(count=len(lines), seed=made.seed),
                    plot_voxels(report, scores, voxels_mm),
                    table(["", "voxels", *headings(KEYS), "good", "points"], rows))
-
-
-def judged(lab, made, what, fit):
-    return judge(lab, what, [(made, lab.fit(what, [fit])[0])])
 
 
 def figures(scores):
@@ -82,12 +78,12 @@ def number_of_points(lab, report, clouds):
     truth = made.truth()
     lines = [line for line in made.lines() if truth[line["file"]]["points"] >= 3000][:3 if lab.quick else 12]
     counts = POINTS[:3] if lab.quick else POINTS
-    times = {}
+    fits = {}
     for count in counts:
         path = write_list(lab.folder / f"points-{count}", made, lines, lambda points: of_size(points, count, rng))
-        for way in WAYS:
-            poses = lab.fit(f"{way}, {count} points", [Fit(path, way, min(3, lab.repeats(way)))])[0]
-            times[way, count] = values(poses, "time_ms")
+        fits.update({(way, count): Fit(path, way, min(3, lab.repeats(way))) for way in WAYS})
+    poses = lab.fit("numbers of points", fits.values())
+    times = {name: values(told, "time_ms") for name, told in zip(fits, poses)}
     rows = []
     for way in WAYS:
         medians = [numpy.median(times[way, count]) for count in counts]
