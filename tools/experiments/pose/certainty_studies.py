@@ -125,7 +125,7 @@ def ambiguity(lab, report, scores):
         wrong = sum(not score["good"] for score in rest)
         best = [nearest_mm(score) for score in flagged if score["pose"].get("alternatives")]
         rows.append([kind, f"`{way}`", f"{100 * len(flagged) / len(told):.0f} %",
-                     *(" ; ".join(cell for cell in cells(part, keys)) for part in (flagged, rest)),
+                     *("; ".join(cells(part, keys)) if part else "" for part in (flagged, rest)),
                      *(good(part) for part in (flagged, rest)), f"{100 * wrong / len(told):.1f} %",
                      shown(pair(best)) if best else ""])
     report.section("Ambiguity", AMBIGUITY_TEXT, plot_ambiguity(report, scores),
@@ -147,7 +147,7 @@ def plot_ambiguity(report, scores):
             groups = [[score["position_mm"] for score in told if unsure(score) == side and not score["failed"]]
                       for side in (False, True)]
             plots.boxes(axis, groups, numpy.arange(2) + 0.2 * (place - 1.5), 0.16, plots.STYLES[way][0], way)
-        axis.set(title=kind, yscale="log")
+        axis.set(title=kind, yscale="log", xlim=(-0.5, 1.5))
         axis.set_xticks((0, 1), ("not flagged", "flagged"))
         axis.grid(axis="x", visible=False)
         plots.plain_numbers(axis.yaxis, (0.1, 0.3, 1, 3, 10, 30))

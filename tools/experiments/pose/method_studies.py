@@ -53,13 +53,13 @@ def table_of(kind, scores):
 
 def table_by(scores, key, cases):
     rows = []
-    for kind in ("clear", "hard"):
-        for case in cases:
-            for way in WAYS:
-                told = [score for score in scores[kind, way] if score[key] == case]
-                if told:
-                    rows.append([kind, case, f"`{way}`", *cells(told, KEYS), good(told)])
-    return table(["set", key, "", *headings(KEYS), "good"], rows)
+    for kind, case in ((kind, case) for kind in ("clear", "hard") for case in cases):
+        told = {way: [score for score in scores[kind, way] if score[key] == case] for way in WAYS}
+        if told["adaptive"]:
+            rows += [[kind, case, *headings([figure]), *(cells(told[way], [figure])[0] for way in WAYS)]
+                     for figure in KEYS[1:]]
+            rows.append([kind, case, "good", *(good(told[way]) for way in WAYS)])
+    return table(["set", key, "", *(f"`{way}`" for way in WAYS)], rows)
 
 
 def plot_positions(report, scores):

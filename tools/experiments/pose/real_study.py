@@ -52,10 +52,11 @@ def real_clusters(lab, report, tools, data):
     fits = {(way, what): Fit(path, way, lab.repeats(way)) for way in WAYS for what, path in lists.items()}
     for (way, what), poses in zip(fits, lab.fit("real clusters", fits.values())):
         judged[way, what] = [distance_mm(tools, pose, *truth[pose["file"]], what) for pose in poses]
-        times[way] = pair(values(poses, "time_ms"))
+        times.setdefault(way, pair(values(poses, "time_ms")))
     if lab.offers("--labels"):
         for what in lists:
-            judged[KNOWING, what], times[KNOWING] = with_neighbourhood(lab, tools, scenes, what)
+            judged[KNOWING, what], told = with_neighbourhood(lab, tools, scenes, what)
+            times.setdefault(KNOWING, told)
     else:
         report.skip("real clusters with their neighbourhood", "this beckon-pose has no --labels")
     text = TEXT.format(clusters=len(truth), fewest=FEWEST_POINTS, scenes=len(scenes), knowing=KNOWING,

@@ -99,8 +99,11 @@ def plot_points(report, times, counts):
     for way in WAYS:
         pairs = numpy.array([pair(times[way, count]) for count in counts])
         plots.line(axis, counts, pairs[:, 0], name=way)
+    published = PROGRAMS["clear"]["Duncan 2013"][0][0]
+    axis.axhline(published[0], color=plots.PROGRAMS["Duncan 2013"][0], linestyle="--",
+                 label="Duncan 2013, published, median of all clear clouds")
     axis.set(xscale="log", yscale="log", xlabel="points", ylabel="time an object, ms")
     plots.plain_numbers(axis.xaxis, counts)
     plots.plain_numbers(axis.yaxis, (0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000))
-    plots.legend_below(figure, axis, 3)
+    plots.legend_below(figure, axis, 2)
     return plots.save(figure, report, "points", "Time against the number of points")
