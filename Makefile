@@ -8,7 +8,7 @@ help:
 	@echo "make test    build and run every test"
 	@echo "make build   release binaries in $(build_dir)/bin"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
-	@echo "make experiments  how good questions and fits are, as docs/experiments (half an hour)"
+	@echo "make experiments  how good questions and fits are, as docs/experiments (some twenty minutes)"
 	@echo "make format  clang-format on every source file"
 
 dependencies:

@@ -43,16 +43,16 @@ def rotation_error(tools, score):
     fitted, true = tools.matrix(score["pose"]["rotation"]), numpy.array(score["truth"]["rotation"])
     if score["pose"]["epsilon"][1] > 1.4:  # the same shape written with its corners along the axes
         fitted = fitted @ Rotation.from_euler("z", 45, degrees=True).as_matrix()
-    vectors = [Rotation.from_matrix(true @ turn @ fitted.T).as_rotvec() for turn in tools.rotations]
+    vectors = Rotation.from_matrix([true @ turn @ fitted.T for turn in tools.rotations]).as_rotvec()
     return min(vectors, key=numpy.linalg.norm)
 
 
 def region_of(error, covariance):
-    """The smallest region, in %, that holds the true value; nan where there is no covariance."""
+    """The smallest region, in %, that holds the true value; nan where there is none, or no sound one."""
     if not covariance.any():
         return numpy.nan
     distance = error @ numpy.linalg.lstsq(covariance, error, rcond=None)[0]
-    return 100 * chi2.cdf(distance, len(error))
+    return 100 * chi2.cdf(distance, len(error)) if distance >= 0 else numpy.nan
 
 
 def regions(tools, scores):
