@@ -77,9 +77,13 @@ def make_sets(lab, tools, seeds, count):
             raise LabError(f"{program}: {(done.stderr.strip() or 'failed').splitlines()[-1]}")
 
     with ThreadPoolExecutor(lab.processes) as pool:
-        for done, future in enumerate(as_completed([pool.submit(make, made) for made in sets]), 1):
-            future.result()
-            progress("clouds", done, len(sets), "sets")
+        try:
+            for done, future in enumerate(as_completed([pool.submit(make, made) for made in sets]), 1):
+                future.result()
+                progress("clouds", done, len(sets), "sets")
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
     return MadeClouds(tools, sets)
 
 
