@@ -17,11 +17,11 @@ from report import table
 SEED, FRAMES = 7001, 20
 FIGURES = {"centre_mm": "centre, mm", "top_mm": "top, mm", "radial_mm": "radial, mm"}
 TEXT = """\
-{objects} objects of the 11 categories in {frames} frames of the embedded scene (`beckon-capture --render --seed {seed}`),
-cut out by its labels, the table as it is. *Centre*: distance from the centre of the fitted superquadric to that of the
-true object's bounding box. *Top*: difference of the heights above the table, the truth's being twice that of its centre.
-*Radial*: of the visible points. A mug's handle, a bowl's hollow and a bottle's neck are in the truth's box and are not in
-the superquadric. *{knowing}*: as whole scenes, with `--labels`."""
+{objects} objects of the 11 categories in {frames} frames of the embedded scene (`beckon-capture --render --seed
+{seed}`), cut out by its labels, the table as it is. *Centre*: distance from the centre of the fitted superquadric to
+that of the true object's bounding box. *Top*: difference of the heights above the table, the truth's being twice that
+of its centre. *Radial*: of the visible points. A mug's handle, a bowl's hollow and a bottle's neck are in the truth's
+box and are not in the superquadric. *{knowing}*: as whole scenes, with `--labels`."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def embedded_objects(lab, report, tools, capture):
     frames = render(lab, capture)
     truth = {path: true_objects(path) for path in frames}
     named = {f"{path.stem}-{thing.label}.xyz": (path, thing) for path in frames for thing in truth[path]}
-    clouds = write_clouds(lab.folder / "embedded-clouds", frames, named)
+    clouds = write_clouds(lab.folder / "embedded-clouds", named)
     judged = {}
     fits = {way: Fit(clouds, way, lab.repeats(way)) for way in WAYS}
     for way, poses in zip(fits, lab.fit("embedded scene's objects", fits.values())):
@@ -57,14 +57,16 @@ def embedded_objects(lab, report, tools, capture):
                                 for pose in poses if pose["label"] in things]
     report.section("Objects of the embedded scene",
                    TEXT.format(objects=len(named), frames=len(frames), seed=SEED, knowing=KNOWING),
-                   plot(report, judged), table_by_way(judged), "By category, centre (mm):\n\n" + table_by_category(judged))
+                   plot(report, judged), table_by_way(judged),
+                   "By category, centre (mm):\n\n" + table_by_category(judged))
     return True
 
 
 def render(lab, capture):
     folder = lab.folder / "embedded"
-    done = subprocess.run([capture, "--render", "--seed", str(SEED), "--frames", str(2 if lab.quick else FRAMES), "--out",
-                           folder], capture_output=True, text=True)
+    frames = 2 if lab.quick else FRAMES
+    done = subprocess.run([capture, "--render", "--seed", str(SEED), "--frames", str(frames), "--out", folder],
+                          capture_output=True, text=True)
     if done.returncode != 0:
         raise LabError(f"{capture.name} --render: {(done.stderr.strip() or 'failed').splitlines()[-1]}")
     return sorted(folder.glob("*.pcd"))
@@ -94,7 +96,7 @@ def true_objects(path):
     return things
 
 
-def write_clouds(folder, frames, named):
+def write_clouds(folder, named):
     folder.mkdir()
     lines = []
     for name, (path, thing) in named.items():

@@ -31,8 +31,8 @@ def side_by_side(lab, report, clouds):
              plot_positions(report, scores)]
     for kind in ("clear", "hard"):
         parts.append(f"**{kind[0].upper() + kind[1:]}**\n\n" + table_of(kind, scores))
-    parts += ["By seed:\n\n" + table_by(scores, "seed", seeds), "By kind of shape:\n\n" + table_by(scores, "kind", KINDS),
-              plot_kinds(report, scores)]
+    parts += ["By seed:\n\n" + table_by(scores, "seed", seeds),
+              "By kind of shape:\n\n" + table_by(scores, "kind", KINDS), plot_kinds(report, scores)]
     report.section("The methods side by side", *parts)
     goals(report, scores)
     return scores
@@ -46,8 +46,8 @@ def table_of(kind, scores):
         rows.append([f"`{way}`", *cells(told, KEYS), *cells(told, ("radial_mm",)), good(told),
                      f"{converged} of {len(told)}"])
     for program, (pairs, of_60) in PROGRAMS[kind].items():
-        rows.append([f"{program}, published", *(f"{middle:g} / {tail:g}" for middle, tail in pairs), "", f"{of_60} of 60",
-                     ""])
+        figures = (f"{middle:g} / {tail:g}" for middle, tail in pairs)
+        rows.append([f"{program}, published", *figures, "", f"{of_60} of 60", ""])
     return table(["", *headings(KEYS), *headings(("radial_mm",)), "good", "says converged"], rows)
 
 

@@ -61,7 +61,7 @@ Measured: {version}, by `{command}`. Pairs are medians / 95th percentiles, of Io
 size and orientation are judged up to the symmetry of the true shape. *Good*: position within 10 mm and IoU above 0.7.
 Times are per object, one thread, medians of several fits in one process. Dashed: measured with the published programs,
 on clouds of the same kinds.""",
-    goals="\"must\" and \"aim\" are the design's. They will be judged on other seeds and scenes of the same kinds. Judged "
-          "at the decimals shown.",
+    goals="\"must\" and \"aim\" are the design's. They will be judged on other seeds and scenes of the same kinds. "
+          "Judged at the decimals shown.",
     reference="dissertation's program",
     targets=TARGETS)

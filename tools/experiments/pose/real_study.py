@@ -22,9 +22,9 @@ TEXT = """\
 {clusters} clusters of at least {fewest} points from {scenes} real table scenes of the Object Segmentation Database, cut
 out by its own labels; the table is a plane fitted to its labels. *Radial*: mean distance of a cluster's points from the
 surface along the ray from its centre. *Hidden*: the 30 % of the points farthest along a random direction of the image
-are removed, the rest is fitted, and those removed are measured: whether the fit knows what it does not see. *{knowing}*:
-the same objects as whole scenes with labels (`--labels`), so that the fit sees what lies beyond each outline; what is
-hidden is then hidden behind something {occluder:.0f} cm nearer. Published: on 80 such clusters."""
+are removed, the rest is fitted, and those removed are measured: whether the fit knows what it does not see.
+*{knowing}*: the same objects as whole scenes with labels (`--labels`), so that the fit sees what lies beyond each
+outline; what is hidden is then hidden behind something {occluder:.0f} cm nearer. Published: on 80 such clusters."""
 
 
 @dataclass(frozen=True)
@@ -125,8 +125,8 @@ def distance_mm(tools, pose, scene, number, what):
 
 def radial_distances(tools, pose, points):
     local = (points - pose["position"]) @ tools.matrix(pose["rotation"])
-    gauge = numpy.maximum(tools.gauge(local, numpy.array(pose["semi_axes"]), *numpy.maximum(pose["epsilon"], 0.02)), 1e-9)
-    return numpy.linalg.norm(local, axis=1) * numpy.abs(1 - 1 / gauge)
+    gauge = tools.gauge(local, numpy.array(pose["semi_axes"]), *numpy.maximum(pose["epsilon"], 0.02))
+    return numpy.linalg.norm(local, axis=1) * numpy.abs(1 - 1 / numpy.maximum(gauge, 1e-9))
 
 
 def table_of(judged, times):

@@ -16,8 +16,8 @@ KEYS = ("time_ms", "position_mm", "size_percent", "orientation_deg", "iou")
 POINTS = (300, 1000, 3000, 10000, 30000)
 SEED = 1
 VOXEL_TEXT = """\
-The dissertation's table of voxel sizes: {count} clear clouds, seed {seed}, thinned by a grid of voxels (a point a voxel:
-the centroid) and fitted. `multiscale` here has the one level that is given, as the table has; what its levels from
+The dissertation's table of voxel sizes: {count} clear clouds, seed {seed}, thinned by a grid of voxels (a point a
+voxel: the centroid) and fitted. `multiscale` here has the one level that is given, as the table has; what its levels from
 coarse to fine bring is in its last line. Few points are left in large voxels (last column: median)."""
 POINTS_TEXT = """\
 {count} clear clouds of at least 3000 points, thinned at random, or thickened by points between neighbours (a sensor of
