@@ -61,10 +61,8 @@ AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq
     cost.support = AddSupport(shape, eq);
     cost.tilt = AddTilt(shape, eq);
   }
-  if (!cut_.normal_F.isZero(0)) {
-    cost.cut = AddCut(shape, eq);
-    return cost;
-  }
+  for (const Cut& cut : cuts_) cost.cut += AddCut(shape, cut, eq);
+  if (!cuts_.empty()) return cost;
   cost.volume = config_.volume_prior_m2 * (shape.semi_axes.array().log().sum() - scene_.log_axes);
   eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
   return cost;
@@ -80,11 +78,12 @@ double AdaptiveProblem::AddSupport(const Superquadric& shape, NormalEquations& e
 }
 
 // The shape reaches about as far beyond the cut as is expected.
-double AdaptiveProblem::AddCut(const Superquadric& shape, NormalEquations& eq) const {
+double AdaptiveProblem::AddCut(const Superquadric& shape, const Cut& cut,
+                               NormalEquations& eq) const {
   ParameterVector jacobian;
-  const double reach = Reach(shape, cut_.normal_F, jacobian) - cut_.normal_F.dot(scene_.viewpoint);
-  const double weight = config_.cut_pull_m2 / (cut_.sigma_m * cut_.sigma_m);
-  const double surprise = reach - cut_.beyond_m;
+  const double reach = Reach(shape, cut.normal_F, jacobian) - cut.normal_F.dot(scene_.viewpoint);
+  const double weight = config_.cut_pull_m2 / (cut.sigma_m * cut.sigma_m);
+  const double surprise = reach - cut.beyond_m;
   eq.Add(surprise, jacobian, weight);
   return weight * surprise * surprise;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "services/base/geometry.h"
 #include "services/pose/distance_kernel.h"
@@ -20,9 +21,9 @@ struct TableTopScene {
 
 /// A side on which the object goes on behind a plane through the viewpoint, nobody knows how far.
 struct Cut {
-  Eigen::Vector3d normal_F = Eigen::Vector3d::Zero();  // unit, outward; zero: there is none
-  double beyond_m = 0;                                 // how far it is expected to go on
-  double sigma_m = 1;                                  // how little that is known
+  Eigen::Vector3d normal_F;  // unit, outward
+  double beyond_m = 0;       // how far it is expected to go on
+  double sigma_m = 1;        // how little that is known
 };
 
 /// The terms of the cost, m^2; each is there to be looked at.
@@ -31,18 +32,18 @@ struct AdaptiveCost {
   double total() const { return points + outline + support + tilt + volume + cut; }
 };
 
-/// The cost of AdaptiveConfig about one set of points and rays, which must outlive it.
+/// The cost of AdaptiveConfig about one set of points, rays and cuts, which must outlive it.
 class AdaptiveProblem : public FitProblem {
  public:
   /// `upright`: the axis of the shape that is to be vertical.
   AdaptiveProblem(const PointBlock& points, const PointBlock& rays, const TableTopScene& scene,
-                  int upright, const AdaptiveConfig& config, const Cut& cut = {})
+                  int upright, const AdaptiveConfig& config, std::span<const Cut> cuts = {})
       : points_(points),
         rays_(rays),
         scene_(scene),
         upright_(upright),
         config_(config),
-        cut_(cut) {}
+        cuts_(cuts) {}
 
   NormalEquations Linearise(const Superquadric& shape) const override;
   AdaptiveCost CostOf(const Superquadric& shape) const;
@@ -54,7 +55,7 @@ class AdaptiveProblem : public FitProblem {
  private:
   AdaptiveCost Add(const Superquadric& shape, NormalEquations& eq) const;
   double AddSupport(const Superquadric& shape, NormalEquations& eq) const;
-  double AddCut(const Superquadric& shape, NormalEquations& eq) const;
+  double AddCut(const Superquadric& shape, const Cut& cut, NormalEquations& eq) const;
   double AddTilt(const Superquadric& shape, NormalEquations& eq) const;
 
   const PointBlock& points_;
@@ -62,7 +63,7 @@ class AdaptiveProblem : public FitProblem {
   const TableTopScene& scene_;
   const int upright_;
   const AdaptiveConfig& config_;
-  const Cut cut_;
+  const std::span<const Cut> cuts_;
   double outline_share_ = 1;
   int search_steps_ = 14;
 };

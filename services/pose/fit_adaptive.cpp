@@ -46,7 +46,7 @@ PointBlock EveryThird(const PointBlock& block) {
 // The outline as it is taken to be: whole, or cut off on a side.
 struct View {
   PointBlock rays, few_rays;
-  Cut cut = {};
+  std::vector<Cut> cuts = {};
   double charge = 0;  // m^2, for the cut's improbability
   double ragged = 0;  // m^2, what the cut's rays cost about their own straight line
 };
@@ -56,12 +56,16 @@ View WholeView(const Silhouette& silhouette) {
 }
 
 // `distance_m`: of the object from the viewpoint.
+Cut CutBehind(const Straight& straight, double distance_m, const AdaptiveConfig& config) {
+  const double width_m = straight.width_rad * distance_m;
+  return {straight.normal_F, config.cut_beyond * width_m,
+          std::max(config.cut_sigma * width_m, 1e-3)};
+}
+
 View CutView(const Silhouette& silhouette, const Straight& straight, double distance_m,
              const AdaptiveConfig& config) {
   View view{silhouette.rays_F, {}};
-  const double width_m = straight.width_rad * distance_m;
-  view.cut = {straight.normal_F, config.cut_beyond * width_m,
-              std::max(config.cut_sigma * width_m, 1e-3)};
+  view.cuts.push_back(CutBehind(straight, distance_m, config));
   view.charge = config.cut_charge_m2;
   const double scale2 = config.outline_noise_m * config.outline_noise_m;
   const double ragged = straight.mean_square_rad * distance_m * distance_m;
@@ -128,7 +132,7 @@ class Fitter {
                   const Superquadric& start, const View& view, double outline_share,
                   const LmOptions& options) {
     AdaptiveProblem problem(points, rays, scene_, UprightAxis(start, scene_.table), config_,
-                            view.cut);
+                            view.cuts);
     problem.set_search_steps(steps);
     problem.set_outline_share(outline_share);
     Candidate c{Minimise(problem, start, bounds_, options), &view, {}, 1, 0};
@@ -149,17 +153,15 @@ class Fitter {
   std::vector<int> iterations_;
 };
 
-// The whole outline or the cut that is seen, then, where nobody knows what lies beyond the outline,
+// The outline as it is seen, then, where nobody knows what lies beyond the outline,
 // what may be cuts.
 std::vector<View> ViewsOf(const Silhouette& silhouette, double distance_m,
                           const AdaptiveConfig& config) {
   std::vector<View> views;
-  if (silhouette.cut) {
-    views.push_back(CutView(silhouette, *silhouette.cut, distance_m, config));
-    views[0].charge = 0;  // nothing improbable: it is seen
-    return views;
-  }
   views.push_back(WholeView(silhouette));
+  for (const Straight& s : silhouette.cuts) {
+    views[0].cuts.push_back(CutBehind(s, distance_m, config));
+  }
   if (!config.cut_hypotheses) return views;
   for (const Straight& s : silhouette.straights) {
     views.push_back(CutView(silhouette, s, distance_m, config));

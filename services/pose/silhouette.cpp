@@ -186,31 +186,63 @@ std::optional<Eigen::Vector2d> ToImage(const Eigen::Matrix3d& axes, const Eigen:
   return Eigen::Vector2d(q.head<2>() / (q.z() * pixel_rad));
 }
 
-// The side that occluders or the image's border take away, where that is a good part of the rim.
-std::optional<Straight> CutOf(std::span<const RimPoint> rim_F,
-                              const std::vector<Eigen::Vector2d>& image, double pixel_rad,
-                              const Eigen::Matrix3d& axes) {
-  constexpr double kLeastPart = 0.1;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), hidden = Eigen::Vector2d::Zero();
-  double n_hidden = 0;
-  for (size_t i = 0; i < image.size(); ++i) {
-    middle += image[i];
-    if (rim_F[i].beyond != Beyond::kNearer && rim_F[i].beyond != Beyond::kImageBorder) continue;
-    hidden += image[i];
-    ++n_hidden;
-  }
-  const double n = static_cast<double>(image.size());
-  if (n_hidden < kLeastPart * n) return std::nullopt;
-  const Eigen::Vector2d outward = hidden / n_hidden - middle / n;
-  if (outward.norm() < 1) return std::nullopt;  // hidden all around
-  const Eigen::Vector2d normal = outward.normalized();
-  double lowest = 1e9;
-  for (const auto& q : image) lowest = std::min(lowest, normal.dot(q));
+bool IsCutOff(const RimPoint& r) {
+  return r.beyond == Beyond::kNearer || r.beyond == Beyond::kImageBorder;
+}
+
+// The piece of a rim from its point `first` on, `count` points long, as if it were straight.
+// `turn`: 1 where the rim runs counter-clockwise in the image, else -1.
+Straight CutAlong(const std::vector<Eigen::Vector2d>& image, size_t first, size_t count,
+                  double turn, double pixel_rad, const Eigen::Matrix3d& axes) {
+  const size_t n = image.size();
+  // From the neighbour before to the neighbour after.
+  const Eigen::Vector2d along =
+      (image[(first + count) % n] - image[(first + n - 1) % n]).stableNormalized();
+  const Eigen::Vector2d outward = turn * Eigen::Vector2d(along.y(), -along.x());
+  double offset = 0, lowest = 1e9;
+  for (size_t k = 0; k < count; ++k) offset += outward.dot(image[(first + k) % n]);
+  offset /= static_cast<double>(count);
+  for (const auto& q : image) lowest = std::min(lowest, outward.dot(q));
   Straight cut;
-  const double offset = normal.dot(hidden) / n_hidden;
-  cut.width_rad = (offset - lowest) * pixel_rad;
-  cut.normal_F = (axes * Eigen::Vector3d(normal.x(), normal.y(), -offset * pixel_rad)).normalized();
+  cut.width_rad = std::max(offset - lowest, 0.0) * pixel_rad;
+  cut.normal_F =
+      (axes * Eigen::Vector3d(outward.x(), outward.y(), -offset * pixel_rad)).normalized();
   return cut;
+}
+
+// The longest pieces of the rim that occluders or the image's border take away; gaps of a point or
+// two in them do not count.
+std::vector<Straight> CutsOf(std::span<const RimPoint> rim_F,
+                             const std::vector<Eigen::Vector2d>& image, double turn,
+                             double pixel_rad, const Eigen::Matrix3d& axes) {
+  constexpr size_t kMostCuts = 3, kGap = 2;
+  constexpr double kShortest = 0.06;  // of the rim
+  const size_t n = image.size();
+  size_t start = 0;  // a point that is not cut off, if there is one
+  while (start < n && IsCutOff(rim_F[start])) ++start;
+  if (start == n) return {};  // cut off all around: nothing is known of any side
+  struct Run {
+    size_t first, count;
+  };
+  std::vector<Run> runs;
+  for (size_t k = 0; k < n; ++k) {
+    if (!IsCutOff(rim_F[(start + k) % n])) continue;
+    if (!runs.empty() && k - (runs.back().first + runs.back().count) <= kGap) {
+      runs.back().count = k - runs.back().first + 1;
+    } else {
+      runs.push_back({k, 1});
+    }
+  }
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run& a, const Run& b) { return a.count > b.count; });
+  std::vector<Straight> cuts;
+  for (const Run& run : runs) {
+    if (cuts.size() == kMostCuts ||
+        static_cast<double>(run.count) < kShortest * static_cast<double>(n))
+      break;
+    cuts.push_back(CutAlong(image, (start + run.first) % n, run.count, turn, pixel_rad, axes));
+  }
+  return cuts;
 }
 
 // The silhouette of a rim, whose points run around the object in order.
@@ -240,7 +272,7 @@ Silhouette SilhouetteOfRim(std::span<const RimPoint> rim_F, const Eigen::Vector3
   // By the length of the rim: where little of it is the object's own, that says little.
   for (const auto& ray : rays) silhouette.rays_F.Add(ray, 1.0 / static_cast<double>(n));
   silhouette.rays_F.Pad();
-  silhouette.cut = CutOf(rim_F, image, config.pixel_rad, axes);
+  silhouette.cuts = CutsOf(rim_F, image, area > 0 ? 1 : -1, config.pixel_rad, axes);
   return silhouette;
 }
 

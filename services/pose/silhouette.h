@@ -31,9 +31,9 @@ struct Silhouette {
   PointBlock rays_F;  // unit directions from the viewpoint; weights sum to 1
   // Where nobody knows what lies beyond the outline: pieces of it that may be cuts, longest first.
   std::vector<Straight> straights;
-  // Where it is known: the side on which an occluder or the image's border cuts the object off; no
-  // rays.
-  std::optional<Straight> cut;
+  // Where it is known: the sides on which occluders or the image's border cut the object off, the
+  // longest first; no rays.
+  std::vector<Straight> cuts;
 };
 
 /// The outline of `points_F` as seen from the viewpoint. Where `rim_F` tells what lies beyond, the
