@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy
 
@@ -17,6 +18,8 @@ FEWEST_POINTS = 300
 HIDDEN = 0.3
 OCCLUDER_M = 0.05  # how much nearer it is
 SEED = 1
+PICTURED = ("learn3-1", "learn12-1", "learn20-1", "learn27-2", "learn29-1", "learn33-1", "learn36-2", "learn39-1",
+            "learn41-1", "learn44-1")  # of all kinds of scene
 KNOWING = "adaptive, neighbourhood known"
 TEXT = """\
 {clusters} clusters of at least {fewest} points from {scenes} real table scenes of the Object Segmentation Database, cut
@@ -62,7 +65,23 @@ def real_clusters(lab, report, tools, data):
     text = TEXT.format(clusters=len(truth), fewest=FEWEST_POINTS, scenes=len(scenes), knowing=KNOWING,
                        occluder=100 * OCCLUDER_M)
     report.section("Real clusters", text, plot(report, judged), table_of(judged, times))
+    pictures(lab, report, lists["radial"])
     goals(report, judged)
+
+
+def pictures(lab, report, clusters):
+    """Ten objects as the camera saw them and turned, with their fits and best grasps."""
+    lines = [line for line in clusters.read_text().splitlines() if Path(json.loads(line)["file"]).stem in PICTURED]
+    if not lines:
+        return
+    chosen = clusters.with_name("pictured.jsonl")
+    chosen.write_text("\n".join(lines) + "\n")
+    name = "real-objects.png"
+    lab.call(["--list", str(chosen), "--json", str(lab.folder / "pictured.json"),
+              "--picture", str(report.folder / name)])
+    report.section("Ten of them", "Each as the camera saw it and turned by a quarter about the table's normal, so that "
+                   "the side shows that the camera did not see. Made by `beckon-pose --list .. --picture ..`.",
+                   f"![Ten real objects with their superquadrics and best grasps]({name})")
 
 
 def read_scene(path, rng):
