@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "services/pose/distance_kernel.h"
 #include "services/pose/fit_stage.h"
 
 namespace beckon::pose {
@@ -67,11 +68,9 @@ Superquadric BoxOf(const PrincipalBox& box) {
   return shape;
 }
 
-// Covariance of position and rotation: the block of the inverse Gauss-Newton Hessian of distances
-// over all eleven parameters, times the mean squared distance. Directions without information get
-// the variance of total ignorance through a weak prior.
-Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const PointList& points) {
-  constexpr int kUsed = kTaper;  // all but taper
+// What the points alone tell of the parameters: the Gauss-Newton Hessian of their distances over
+// the mean squared distance.
+ParameterMatrix InformationOf(const Superquadric& shape, const PointList& points) {
   NormalEquations eq;
   double squares = 0;
   for (const auto& p : points) {
@@ -79,14 +78,21 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const Poin
     eq.Add(d.distance_m, d.jacobian);
     squares += d.distance_m * d.distance_m;
   }
-  const double dof = std::max<double>(static_cast<double>(points.size()) - kUsed, 1);
+  const double dof = std::max<double>(static_cast<double>(points.size()) - kTaper, 1);
   const double variance = std::max(squares / dof, 1e-12);
+  return ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()) / variance;
+}
+
+// Covariance of position and rotation: the block of the inverse information on all parameters but
+// taper. Directions without information get the variance of total ignorance through a weak prior.
+Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape,
+                                           const ParameterMatrix& parameter_information) {
+  constexpr int kUsed = kTaper;
   Eigen::Matrix<double, kUsed, 1> prior;  // standard deviations of total ignorance
   prior << 1, 1, 1, 0.5, 0.5, Eigen::Vector3d::Constant(std::numbers::pi / std::sqrt(3.0)),
       Eigen::Vector3d::Constant(shape.semi_axes.maxCoeff());
   Eigen::Matrix<double, kUsed, kUsed> information =
-      ParameterMatrix(eq.hessian.selfadjointView<Eigen::Lower>()).topLeftCorner<kUsed, kUsed>() /
-      variance;
+      parameter_information.topLeftCorner<kUsed, kUsed>();
   information.diagonal() += prior.array().square().inverse().matrix();
   const Eigen::Matrix<double, kUsed, kUsed> covariance =
       information.ldlt().solve(Eigen::Matrix<double, kUsed, kUsed>::Identity());
@@ -97,6 +103,25 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Superquadric& shape, const Poin
   pose.bottomLeftCorner<3, 3>() = covariance.block<3, 3>(kRotation, kTranslation);
   pose.bottomRightCorner<3, 3>() = covariance.block<3, 3>(kRotation, kRotation);
   return 0.5 * (pose + pose.transpose());
+}
+
+// Mean radial distance of `most` of the points, m.
+double MeanRadialDistanceOf(const Superquadric& shape, const PointList& points, int most) {
+  const PointList part = Thinned(points, most);
+  if (!shape.taper.isZero(0)) return MeanRadialDistance(shape, part);
+  double sum = 0;
+  PointBlock block;
+  const auto empty = [&] {
+    block.Pad();
+    sum += SumRadialDistances(shape, block);
+    block.size = 0;
+  };
+  for (const auto& p : part) {
+    block.Add(p, 1);
+    if (block.full()) empty();
+  }
+  if (block.size > 0) empty();
+  return sum / static_cast<double>(part.size());
 }
 
 MethodOutcome FitBy(const FitConfig& config, const PointList& points, const FitInput& input) {
@@ -110,7 +135,7 @@ MethodOutcome FitBy(const FitConfig& config, const PointList& points, const FitI
     case Method::kAdaptive:
       break;
   }
-  return FitAdaptive(points, input.table_F, input.viewpoint_F, config.adaptive);
+  return FitAdaptive(points, input.table_F, input.viewpoint_F, input.rim_F, config.adaptive);
 }
 
 bool IsFinite(const Superquadric& s) {
@@ -166,8 +191,11 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   }
   result.shape = outcome.shape;
   result.ambiguous = outcome.ambiguous;
-  result.mean_radial_distance_m = MeanRadialDistance(result.shape, Thinned(points, kJudges));
-  result.covariance = PoseCovariance(result.shape, Thinned(points, kWitnesses));
+  result.alternatives = outcome.alternatives;
+  result.mean_radial_distance_m = MeanRadialDistanceOf(result.shape, points, kJudges);
+  result.covariance = PoseCovariance(
+      result.shape, outcome.information ? *outcome.information
+                                        : InformationOf(result.shape, Thinned(points, kWitnesses)));
   if (!outcome.converged) {
     result.reason = "the fit was still improving when its iterations ran out";
   } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {
@@ -176,6 +204,10 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
              1e3 * result.mean_radial_distance_m, 1e3 * config.max_radial_distance_m);
   }
   result.converged = result.reason.empty();
+  if (config.method == Method::kAdaptive) {
+    result.parts = FindParts(points, input.table_F, input.viewpoint_F, input.rim_F, result.shape,
+                             config.adaptive, config.parts);
+  }
   return result;
 }
 

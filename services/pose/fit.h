@@ -14,6 +14,7 @@
 #include "services/pose/fit_classic.h"
 #include "services/pose/fit_hierarchical.h"
 #include "services/pose/fit_multiscale.h"
+#include "services/pose/parts.h"
 #include "services/pose/superquadric.h"
 
 namespace beckon::pose {
@@ -32,6 +33,7 @@ struct FitConfig {
   MultiscaleConfig multiscale;
   ClassicConfig classic;
   HierarchicalConfig hierarchical;
+  PartsConfig parts;            // of the adaptive method
   double max_extent_m = 3.0;    // a cloud larger than this is not an object in metres
   double min_extent_m = 0.005;  // one smaller than this shows nothing
   double max_radial_distance_m =

@@ -4,142 +4,223 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "services/pose/outline.h"
+#include "services/pose/adaptive_problem.h"
+#include "services/pose/even_spread.h"
+#include "services/pose/silhouette.h"
 #include "services/pose/starts.h"
 #include "services/pose/surface.h"
 
 namespace beckon::pose {
 namespace {
 
-constexpr int kPointsForSize = 300;
+constexpr int kCoarseSteps = 9, kFineSteps = 13;  // of the search for a ray's deepest point
+constexpr double kCoarseTolerance = 1e-3;
+constexpr double kLeastVariance_m2 = 4e-8;
 
-// s^2 log(1 + (r/s)^2) and its weight (Cauchy; Zhang 1997, table 1).
-struct Robust {
-  double cost, weight;
-};
-Robust Cauchy(double residual, double scale) {
-  const double x = residual * residual / (scale * scale);
-  return {scale * scale * std::log(1 + x), 1 / (1 + x)};
+// Every so manieth of the points, at most `most`; the weights sum to 1.
+PointBlock Block(const SpreadPoints& spread, int most) {
+  const size_t limit = static_cast<size_t>(std::min(most, kBlockSize));
+  const size_t step = std::max<size_t>((spread.points.size() + limit - 1) / limit, 1);
+  double sum = 0;
+  for (size_t i = 0; i < spread.points.size(); i += step) sum += spread.weights[i];
+  PointBlock block;
+  for (size_t i = 0; i < spread.points.size(); i += step) {
+    block.Add(spread.points[i], spread.weights[i] / sum);
+  }
+  block.Pad();
+  return block;
 }
 
-// What does not change between the stages of one fit.
-struct Scene {
-  std::optional<Plane> table;
-  Eigen::Vector3d viewpoint;
-  std::vector<TangentPlane> outline;
+// Every third ray, for coarse fits.
+PointBlock EveryThird(const PointBlock& block) {
+  PointBlock third;
+  for (int i = 0; i < block.size; i += 3) {
+    third.Add(block.at(i), 3.0 * static_cast<double>(block.weight[static_cast<size_t>(i)]));
+  }
+  third.Pad();
+  return third;
+}
+
+// The outline as it is taken to be: whole, or cut off on a side.
+struct View {
+  PointBlock rays, few_rays;
+  std::vector<Cut> cuts = {};
+  double charge = 0;  // m^2, for the cut's improbability
+  double ragged = 0;  // m^2, what the cut's rays cost about their own straight line
 };
 
-class AdaptiveProblem : public FitProblem {
- public:
-  /// `upright` is the axis of the shape that is to be vertical.
-  AdaptiveProblem(const PointList& points, const Scene& scene, int upright,
-                  const AdaptiveConfig& config)
-      : points_(points), scene_(scene), upright_(upright), config_(config) {}
+View WholeView(const Silhouette& silhouette) {
+  return {silhouette.rays_F, EveryThird(silhouette.rays_F)};
+}
 
-  NormalEquations Linearise(const Superquadric& shape) const override {
-    NormalEquations eq;
-    AddPoints(shape, eq);
-    if (scene_.table) {
-      AddSupport(shape, eq);
-      AddTilt(shape, eq);
-    }
-    AddOutline(shape, eq);
-    eq.cost += config_.volume_prior_m2 * shape.semi_axes.array().log().sum();
-    eq.gradient.segment<3>(kLogAxes).array() += 0.5 * config_.volume_prior_m2;
-    return eq;
+// `distance_m`: of the object from the viewpoint.
+Cut CutBehind(const Straight& straight, double distance_m, const AdaptiveConfig& config) {
+  const double width_m = straight.width_rad * distance_m;
+  return {straight.normal_F, config.cut_beyond * width_m,
+          std::max(config.cut_sigma * width_m, 1e-3)};
+}
+
+View CutView(const Silhouette& silhouette, const Straight& straight, double distance_m,
+             const AdaptiveConfig& config) {
+  View view{silhouette.rays_F, {}};
+  view.cuts.push_back(CutBehind(straight, distance_m, config));
+  view.charge = config.cut_charge_m2;
+  const double scale2 = config.outline_noise_m * config.outline_noise_m;
+  const double ragged = straight.mean_square_rad * distance_m * distance_m;
+  const double cost_of_ray = config.outline_weight * scale2 * std::log1p(ragged / scale2);
+  for (int i : straight.rays) {
+    float& weight = view.rays.weight[static_cast<size_t>(i)];
+    view.ragged += static_cast<double>(std::exchange(weight, 0.0f)) * cost_of_ray;
   }
+  view.few_rays = EveryThird(view.rays);
+  return view;
+}
+
+// A shape that was fitted under one view.
+struct Candidate {
+  LmResult result;
+  const View* view;
+  AdaptiveCost cost;
+  double outline_share;  // what the outline is worth: 1 where it fits, less the worse it does
+  double score;          // m^2; the least wins
+};
+
+bool Better(const Candidate& a, const Candidate& b) { return a.score < b.score; }
+
+// Whether two shapes are clearly not the same, told from their numbers alone.
+bool LookDifferent(const Superquadric& a, const Superquadric& b) {
+  constexpr double kMove_m = 0.004, kGrowth = 0.1;
+  const double moved = (a.X_FO.translation() - b.X_FO.translation()).norm();
+  const double grown = std::abs(std::log(a.semi_axes.prod() / b.semi_axes.prod()));
+  return moved > kMove_m || grown > kGrowth;
+}
+
+// One object's fit: what all its stages use.
+class Fitter {
+ public:
+  Fitter(const SpreadPoints& spread, const Superquadric& filling, const TableTopScene& scene,
+         const AdaptiveConfig& config)
+      : fine_(Block(spread, kBlockSize)),
+        coarse_(Block(spread, config.coarse_points)),
+        scene_(scene),
+        config_(config) {
+    const double reach = filling.semi_axes.maxCoeff();
+    bounds_.min_axes.setConstant(config.min_semi_axis_m);
+    bounds_.max_axes.setConstant(
+        std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
+    bounds_.min_epsilon = config.min_epsilon;
+    bounds_.max_epsilon = config.max_epsilon;
+  }
+
+  Candidate FitCoarsely(const Superquadric& start, const View& view, int iterations) {
+    return FitTo(coarse_, view.few_rays, kCoarseSteps, start, view, 1,
+                 {iterations, kCoarseTolerance});
+  }
+  Candidate Refine(const Candidate& c) {
+    return FitTo(fine_, c.view->rays, kFineSteps, c.result.shape, *c.view, c.outline_share,
+                 {config_.fine_iterations, config_.fine_tolerance});
+  }
+  const std::vector<int>& iterations() const { return iterations_; }
 
  private:
-  void AddPoints(const Superquadric& shape, NormalEquations& eq) const {
-    const double share = 1.0 / static_cast<double>(points_.size());
-    for (const auto& p : points_) {
-      const SurfaceDistance d = DistanceToSurface(shape, p);
-      const Robust robust = Cauchy(d.distance_m, config_.noise_m);
-      eq.Add(d.distance_m, d.jacobian, share * robust.weight);
-      eq.cost += share * robust.cost;
-    }
+  // The noise of the outline is not known, so its cost counts by the logarithm, as if its scale had
+  // been estimated with it; the minimisation takes the slope of that, outline_share, from the stage
+  // before.
+  Candidate FitTo(const PointBlock& points, const PointBlock& rays, int steps,
+                  const Superquadric& start, const View& view, double outline_share,
+                  const LmOptions& options) {
+    AdaptiveProblem problem(points, rays, scene_, UprightAxis(start, scene_.table), config_,
+                            view.cuts);
+    problem.set_search_steps(steps);
+    problem.set_outline_share(outline_share);
+    Candidate c{Minimise(problem, start, bounds_, options), &view, {}, 1, 0};
+    iterations_.push_back(c.result.iterations);
+    problem.set_outline_share(1);
+    c.cost = problem.CostOf(c.result.shape);
+    const double outline = (c.cost.outline + view.ragged) / config_.outline_trust_m2;
+    c.outline_share = 1 / (1 + outline);
+    c.score = c.cost.points + c.cost.support + c.cost.tilt + c.cost.volume +
+              config_.outline_trust_m2 * std::log1p(outline) + view.charge;
+    return c;
   }
 
-  // max of n·p over the shape, with its derivatives by the parameters.
-  static double Reach(const Superquadric& shape, const Eigen::Vector3d& n_F,
-                      ParameterVector& jacobian) {
-    const Eigen::Matrix3d& R = shape.X_FO.linear();
-    const SupportDerivatives d = DifferentiateSupport(shape, R.transpose() * n_F);
-    jacobian.setZero();
-    jacobian.segment<3>(kLogAxes) = d.log_semi_axes;
-    jacobian.segment<2>(kEpsilon) = d.epsilon;
-    jacobian.segment<3>(kRotation) = (R * d.point).cross(n_F);
-    jacobian.segment<3>(kTranslation) = n_F;
-    return n_F.dot(shape.X_FO.translation()) + d.h;
-  }
-
-  // The lowest point lies on the table: max over the shape of -n·p equals the plane's offset.
-  void AddSupport(const Superquadric& shape, NormalEquations& eq) const {
-    ParameterVector jacobian;
-    const double below = Reach(shape, -scene_.table->normal, jacobian) - scene_.table->offset_m;
-    const Robust robust = Cauchy(below, config_.support_noise_m);
-    eq.Add(below, jacobian, config_.support_weight * robust.weight);
-    eq.cost += config_.support_weight * robust.cost;
-  }
-
-  // The upright axis has no horizontal components.
-  void AddTilt(const Superquadric& shape, NormalEquations& eq) const {
-    const Eigen::Vector3d axis = shape.X_FO.linear().col(upright_);
-    const Eigen::Vector3d right = scene_.table->normal.unitOrthogonal();
-    for (const Eigen::Vector3d& h : {right, Eigen::Vector3d(scene_.table->normal.cross(right))}) {
-      ParameterVector jacobian = ParameterVector::Zero();
-      jacobian.segment<3>(kRotation) = axis.cross(h);
-      const double lean = h.dot(axis);
-      eq.Add(lean, jacobian, config_.tilt_weight);
-      eq.cost += config_.tilt_weight * lean * lean;
-    }
-  }
-
-  // The planes through the viewpoint that touch the visible outline touch the shape.
-  void AddOutline(const Superquadric& shape, NormalEquations& eq) const {
-    if (scene_.outline.empty()) return;
-    const double share = config_.outline_weight / static_cast<double>(scene_.outline.size());
-    ParameterVector jacobian;
-    for (const TangentPlane& plane : scene_.outline) {
-      const double beyond =
-          Reach(shape, plane.normal_F, jacobian) - plane.normal_F.dot(scene_.viewpoint);
-      const Robust robust = Cauchy(beyond, config_.outline_noise_m);
-      eq.Add(beyond, jacobian, share * robust.weight);
-      eq.cost += share * robust.cost;
-    }
-  }
-
-  const PointList& points_;
-  const Scene& scene_;
-  const int upright_;
+  const PointBlock fine_, coarse_;
+  const TableTopScene& scene_;
   const AdaptiveConfig& config_;
+  FitBounds bounds_;
+  std::vector<int> iterations_;
 };
 
-// The axis of the shape nearest to the table's normal; 2 where there is no table.
-int UprightAxis(const Superquadric& shape, const std::optional<Plane>& table) {
-  int axis = 2;
-  if (table) (shape.X_FO.linear().transpose() * table->normal).cwiseAbs().maxCoeff(&axis);
-  return axis;
+// The outline as it is seen, then, where nobody knows what lies beyond the outline,
+// what may be cuts.
+std::vector<View> ViewsOf(const Silhouette& silhouette, double distance_m,
+                          const AdaptiveConfig& config) {
+  std::vector<View> views;
+  views.push_back(WholeView(silhouette));
+  for (const Straight& s : silhouette.cuts) {
+    views[0].cuts.push_back(CutBehind(s, distance_m, config));
+  }
+  if (!config.cut_hypotheses) return views;
+  for (const Straight& s : silhouette.straights) {
+    views.push_back(CutView(silhouette, s, distance_m, config));
+  }
+  return views;
 }
 
-// About `count` points evenly spread over the surface: the centroids of a voxel grid of fitting
-// size, which is found on a part of the points.
-PointList EvenlySpread(const PointList& points, int count, double size_m) {
-  if (points.size() <= static_cast<size_t>(count)) return points;
-  double voxel_m = size_m / std::sqrt(static_cast<double>(count));
-  const PointList part = Thinned(points, 4 * count);
-  for (int tries = 0; tries < 3; ++tries) {
-    const double ratio = static_cast<double>(VoxelCentroids(part, voxel_m).size()) / count;
-    if (ratio > 0.8 && ratio < 1.25) break;
-    voxel_m *= std::sqrt(ratio);  // points lie on a surface
+// Coarse fits from all starts under the first view, and from the best two under the others; best
+// first.
+std::vector<Candidate> Explore(Fitter& fitter, const std::vector<Superquadric>& starts,
+                               std::vector<View>& views, const AdaptiveConfig& config) {
+  std::vector<Candidate> candidates;
+  for (const Superquadric& start : starts) {
+    candidates.push_back(fitter.FitCoarsely(start, views[0], config.coarse_iterations));
   }
-  return VoxelCentroids(points, voxel_m);
+  std::stable_sort(candidates.begin(), candidates.end(), Better);
+  // An outline that no whole shape explains is more likely to be cut.
+  const double charge_share = std::pow(candidates[0].outline_share, 3);
+  const Superquadric bases[2] = {candidates[0].result.shape, candidates[1].result.shape};
+  for (size_t i = 1; i < views.size(); ++i) {
+    views[i].charge *= charge_share;
+    for (const Superquadric& base : bases) {
+      candidates.push_back(fitter.FitCoarsely(base, views[i], config.cut_iterations));
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), Better);
+  return candidates;
+}
+
+// The best candidate to all points, and the next that is of another shape if it is about as good;
+// best first.
+std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& candidates,
+                                  double runner_up) {
+  std::vector<Candidate> refined{fitter.Refine(candidates[0])};
+  for (size_t i = 1; i < candidates.size(); ++i) {
+    if (candidates[i].score > runner_up * candidates[0].score) break;
+    if (!LookDifferent(candidates[0].result.shape, candidates[i].result.shape)) continue;
+    refined.push_back(fitter.Refine(candidates[i]));
+    break;
+  }
+  std::stable_sort(refined.begin(), refined.end(), Better);
+  return refined;
+}
+
+// The Hessian of the cost, a mean of squares, in units of information: neighbours err together, so
+// that hundreds of points do not know as much as if they were independent, and how badly the
+// outline fits tells how much else is not in the model.
+ParameterMatrix InformationOf(const Candidate& c, size_t n_points, const AdaptiveConfig& config) {
+  const double unexplained = 1 + c.cost.outline / config.outline_clean_m2;
+  const double witnesses =
+      config.witnesses * std::min(static_cast<double>(n_points) / config.fine_points, 1.0);
+  const double variance = unexplained * unexplained * std::max(c.cost.points, kLeastVariance_m2);
+  return ParameterMatrix(c.result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
+         (witnesses / variance);
 }
 
 // Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
 // foot is hidden behind another object, or it stands on one, and how far down it goes is not known.
-bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Scene& scene,
+bool FootIsUnseen(const Superquadric& shape, const PointList& points, const TableTopScene& scene,
                   double gap_m) {
   constexpr int kSamples = 150;
   constexpr double kGrazing = 0.14;  // sine of the angle below which cameras see little
@@ -160,49 +241,36 @@ bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Scen
 }  // namespace
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
-                          const Eigen::Vector3d& viewpoint_F, const AdaptiveConfig& config) {
-  const double size =
-      ComputePrincipalBox(Thinned(points_F, kPointsForSize)).half_extents.maxCoeff();
-  const PointList fine = EvenlySpread(points_F, config.fine_points, 2 * size);
-  const std::vector<Superquadric> starts = Starts(fine, table_F);
-  const double reach = starts[0].semi_axes.maxCoeff();
-  const PointList coarse = Thinned(fine, config.coarse_points);
-  const Scene scene{table_F, viewpoint_F,
-                    OutlinePlanes(points_F, viewpoint_F, table_F, config.outline_planes,
-                                  config.pixel_rad, config.table_margin_m)};
-  FitBounds bounds;
-  bounds.min_axes.setConstant(config.min_semi_axis_m);
-  bounds.max_axes.setConstant(std::max(reach * (1 + config.axis_margin), config.min_semi_axis_m));
-  bounds.min_epsilon = config.min_epsilon;
-  bounds.max_epsilon = config.max_epsilon;
+                          const Eigen::Vector3d& viewpoint_F, std::span<const RimPoint> rim_F,
+                          const AdaptiveConfig& config) {
+  const SpreadPoints spread = SpreadEvenly(points_F, config.fine_points);
+  const std::vector<Superquadric> starts = Starts(spread.points, table_F);
+  const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
+  const Silhouette silhouette =
+      TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
+                      {config.outline_rays, config.pixel_rad, config.table_margin_m});
+  const double distance_m = (starts[0].X_FO.translation() - viewpoint_F).norm();
+  std::vector<View> views = ViewsOf(silhouette, distance_m, config);
+
+  Fitter fitter(spread, starts[0], scene, config);
+  const std::vector<Candidate> refined =
+      RefineBest(fitter, Explore(fitter, starts, views, config), config.runner_up);
+  const Candidate& best = refined[0];
 
   MethodOutcome outcome;
-  LmOptions options{config.coarse_iterations, 1e-3};
-  std::vector<LmResult> fits;
-  for (const Superquadric& start : starts) {
-    const AdaptiveProblem problem(coarse, scene, UprightAxis(start, table_F), config);
-    fits.push_back(Minimise(problem, start, bounds, options));
-    outcome.iterations.push_back(fits.back().iterations);
+  outcome.shape = best.result.shape;
+  outcome.converged = best.result.converged;
+  outcome.iterations = fitter.iterations();
+  outcome.information = InformationOf(best, points_F.size(), config);
+  for (size_t i = 1; i < refined.size(); ++i) {
+    const Superquadric& other = refined[i].result.shape;
+    if (refined[i].score < kAboutAsGood * best.score &&
+        ShapeDifference(best.result.shape, other) > kOtherShape_m) {
+      outcome.alternatives.push_back(other);
+    }
   }
-  const auto cheaper = [](const LmResult& a, const LmResult& b) {
-    return a.at_minimum.cost < b.at_minimum.cost;
-  };
-  std::stable_sort(fits.begin(), fits.end(), cheaper);
-  fits.resize(2);
-
-  options = {config.fine_iterations, 1e-4};
-  for (LmResult& fit : fits) {
-    const AdaptiveProblem problem(fine, scene, UprightAxis(fit.shape, table_F), config);
-    fit = Minimise(problem, fit.shape, bounds, options);
-    outcome.iterations.push_back(fit.iterations);
-  }
-  std::stable_sort(fits.begin(), fits.end(), cheaper);
-  outcome.shape = fits[0].shape;
-  outcome.converged = fits[0].converged;
-  const bool other_shape = MeanRadialDistance(fits[1].shape, fine) <
-                               kAboutAsGood * MeanRadialDistance(fits[0].shape, fine) &&
-                           ShapeDifference(fits[0].shape, fits[1].shape) > kOtherShape_m;
-  outcome.ambiguous = other_shape || FootIsUnseen(outcome.shape, fine, scene, config.unseen_foot_m);
+  outcome.ambiguous = !outcome.alternatives.empty() ||
+                      FootIsUnseen(outcome.shape, spread.points, scene, config.unseen_foot_m);
   return outcome;
 }
 

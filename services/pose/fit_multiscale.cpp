@@ -75,7 +75,7 @@ MethodOutcome FitMultiscale(const PointList& points_F, const MultiscaleConfig& c
                    [](const Candidate& a, const Candidate& b) { return a.error < b.error; });
 
   const Candidate& best = candidates[0];
-  MethodOutcome outcome{best.last.shape, best.last.converged, false, best.iterations};
+  MethodOutcome outcome{best.last.shape, best.last.converged, false, best.iterations, {}, {}};
   for (size_t i = 1; i < candidates.size(); ++i) {
     outcome.ambiguous |= candidates[i].error < kAboutAsGood * best.error &&
                          ShapeDifference(candidates[i].last.shape, best.last.shape) > kOtherShape_m;

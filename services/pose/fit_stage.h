@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct MethodOutcome {
   bool converged = false;  // the last minimisation came to rest
   bool ambiguous = false;
   std::vector<int> iterations;
+  std::vector<Superquadric> alternatives;  // what makes it ambiguous, best first; may be empty
+  // Where the method knows it: the information on its parameters, of which the covariance is the
+  // inverse.
+  std::optional<ParameterMatrix> information;
 };
 
 /// At most about `count` points: every so manieth.

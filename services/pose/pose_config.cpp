@@ -21,9 +21,21 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("support_noise_m", c.support_noise_m, 1e-5, 1);
   table.Get("unseen_foot_m", c.unseen_foot_m, 0, 10);
   table.Get("tilt_weight", c.tilt_weight, 0, 1e6);
-  table.Get("outline_planes", c.outline_planes, 0, 1000);
+  table.Get("outline_rays", c.outline_rays, 0, 1000);
   table.Get("outline_weight", c.outline_weight, 0, 1e6);
   table.Get("outline_noise_m", c.outline_noise_m, 1e-5, 0.1);
+  table.Get("outline_outside_m", c.outline_outside_m, 1e-5, 0.1);
+  table.Get("cut_hypotheses", c.cut_hypotheses);
+  table.Get("outline_trust_m2", c.outline_trust_m2, 0, 1);
+  table.Get("runner_up", c.runner_up, 1, 1000);
+  table.Get("fine_tolerance", c.fine_tolerance, 1e-9, 1);
+  table.Get("witnesses", c.witnesses, 1, 1e6);
+  table.Get("outline_clean_m2", c.outline_clean_m2, 1e-12, 1);
+  table.Get("cut_pull_m2", c.cut_pull_m2, 0, 1);
+  table.Get("cut_charge_m2", c.cut_charge_m2, 0, 1);
+  table.Get("cut_beyond", c.cut_beyond, 0, 10);
+  table.Get("cut_sigma", c.cut_sigma, 1e-3, 10);
+  table.Get("cut_iterations", c.cut_iterations, 1, 1000);
   table.Get("pixel_rad", c.pixel_rad, 0, 0.1);
   table.Get("table_margin_m", c.table_margin_m, 0, 1);
 }
@@ -77,6 +89,24 @@ void ReadHierarchical(ConfigTable table, HierarchicalConfig& c) {
   table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
 }
 
+void ReadParts(ConfigTable table, PartsConfig& c) {
+  table.Get("most_parts", c.most_parts, 1, 10);
+  table.Get("outside_m", c.outside_m, 1e-4, 1);
+  table.Get("outside_sigmas", c.outside_sigmas, 0, 100);
+  table.Get("outside_medians", c.outside_medians, 0, 100);
+  table.Get("min_points", c.min_points, kParameters, 512);
+  table.Get("min_share", c.min_share, 0, 1);
+  table.Get("min_protrusion_m", c.min_protrusion_m, 0, 1);
+  table.Get("neck_width", c.neck_width, 0, 1);
+  table.Get("neck_height_m", c.neck_height_m, 0, 1);
+  table.Get("astray_sigmas", c.astray_sigmas, 1, 100);
+  table.Get("round_share", c.round_share, 0, 1);
+  table.Get("rounds", c.rounds, 1, 100);
+  table.Get("iterations", c.iterations, 1, 1000);
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("witnesses", c.witnesses, 2, 512);
+}
+
 void ReadGripper(ConfigTable table, GripperConfig& c) {
   table.Get("max_opening_m", c.max_opening_m, 0.001, 1);
   table.Get("finger_depth_m", c.finger_depth_m, 0.001, 1);
@@ -110,6 +140,7 @@ Result<PoseConfig> ReadPoseConfig(ConfigTable table) {
   ReadMultiscale(table.Section("multiscale"), config.fit.multiscale);
   ReadClassic(table.Section("classic"), config.fit.classic);
   ReadHierarchical(table.Section("hierarchical"), config.fit.hierarchical);
+  ReadParts(table.Section("parts"), config.fit.parts);
   ReadGripper(table.Section("gripper"), config.gripper);
   if (Status finished = table.Finish(); !finished) return finished.error();
   return config;

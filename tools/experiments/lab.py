@@ -1,4 +1,4 @@
-"""Runs `beckon-intention` for the experiments: makes scenarios, lives them, a few processes at a time."""
+"""Runs programs for the experiments; `beckon-intention`: makes scenarios, lives them, a few processes at a time."""
 
 import json
 import subprocess
@@ -28,15 +28,38 @@ class Run:
                 "--flip", str(self.flip), "--seed", str(self.seed), *self.more]
 
 
-class Lab:
-    def __init__(self, binary, folder, processes, quick):
+class Program:
+    """A program that is measured."""
+
+    def __init__(self, binary, folder, quick):
         self.binary = Path(binary)
-        self.folder = Path(folder)
-        self.processes = processes
+        self.folder = Path(folder)  # for scratch files
         self.quick = quick  # everything smaller: to see that it works
-        self._outcomes = {}
         if not self.binary.is_file():
-            raise LabError(f"there is no {self.binary}; build it with 'make build', or name it with --binary")
+            raise LabError(f"there is no {self.binary}; build it with 'make build', or name it with --{self.OPTION}")
+
+    def call(self, arguments):
+        done = subprocess.run([self.binary, *arguments], capture_output=True, text=True)
+        if done.returncode != 0:
+            said = (done.stderr.strip() or done.stdout.strip()).splitlines()
+            raise LabError(f"{self.binary.name} {' '.join(arguments)}: {said[-1] if said else done.returncode}")
+        return done.stdout
+
+
+def progress(what, done, total, unit="evaluations"):
+    if sys.stdout.isatty():
+        print(f"\r{what}: {done}/{total}", end="\n" if done == total else "", flush=True)
+    elif done == total:
+        print(f"{what}: {total} {unit}", flush=True)
+
+
+class Lab(Program):
+    OPTION = "binary"
+
+    def __init__(self, binary, folder, processes, quick):
+        super().__init__(binary, folder, quick)
+        self.processes = processes
+        self._outcomes = {}
         self._help = {}
 
     def offers(self, command, option=""):
@@ -45,13 +68,6 @@ class Lab:
             done = subprocess.run([self.binary, command, "--help"], capture_output=True, text=True)
             self._help[command] = done.stdout if done.returncode == 0 and f" {command} " in done.stdout else None
         return self._help[command] is not None and option in self._help[command].replace(",", " ")
-
-    def call(self, arguments):
-        done = subprocess.run([self.binary, *arguments], capture_output=True, text=True)
-        if done.returncode != 0:
-            said = (done.stderr.strip() or done.stdout.strip()).splitlines()
-            raise LabError(f"{self.binary.name} {' '.join(arguments)}: {said[-1] if said else done.returncode}")
-        return done.stdout
 
     def write(self, name, sessions):
         path = self.folder / f"{name}.jsonl"
@@ -74,7 +90,7 @@ class Lab:
             try:
                 for done, future in enumerate(as_completed(pending), 1):
                     self._outcomes[pending[future]] = future.result()
-                    self._progress(what, done, len(new))
+                    progress(what, done, len(new))
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
@@ -86,9 +102,3 @@ class Lab:
             outcomes = [json.loads(line) for line in file]
         out.unlink()
         return outcomes
-
-    def _progress(self, what, done, total):
-        if sys.stdout.isatty():
-            print(f"\r{what}: {done}/{total}", end="\n" if done == total else "", flush=True)
-        elif done == total:
-            print(f"{what}: {total} evaluations", flush=True)

@@ -11,6 +11,12 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
 STYLES = {  # name: (colour, marker)
     "adaptive": (BLUE, "o"), "adaptive, aof": (SKY, "s"), "oain": (VERMILION, "^"), "count": (ORANGE, "D"),
     "random-scene": (PURPLE, "v"), "random": (BLACK, "x"),
+    "multiscale": (ORANGE, "D"), "multiscale, smoothed": (GREEN, "s"), "classic": (VERMILION, "^"),
+    "hierarchical": (PURPLE, "v"), "adaptive, neighbourhood known": (SKY, "s"),
+}
+PROGRAMS = {  # published ones, dashed
+    "Duncan 2013": (ORANGE, "D"), "Duncan 2013, not smoothed": (YELLOW, "d"), "superquadric-lib": (BLACK, "x"),
+    "EMS 2022": ("#777777", "+"),
 }
 
 matplotlib.rcParams.update({
@@ -46,6 +52,20 @@ def count_scale(axis, ticks=(1, 2, 3, 5, 10, 20)):
     axis.set_yticks(ticks)
     axis.set_yticklabels([str(tick) for tick in ticks])
     axis.yaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def plain_numbers(axis, ticks):
+    """Plain numbers along a logarithmic axis."""
+    axis.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
+    axis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def boxes(axis, groups, at, width, colour, label):
+    """Medians, quartiles, and from the 5th to the 95th percentile."""
+    drawn = axis.boxplot(groups, positions=at, widths=width, whis=(5, 95), showfliers=False, patch_artist=True,
+                         medianprops={"color": BLACK}, boxprops={"facecolor": colour, "linewidth": 0.5},
+                         whiskerprops={"color": colour}, capprops={"color": colour}, manage_ticks=False)
+    drawn["boxes"][0].set_label(label)
 
 
 def legend_below(figure, axis, columns):

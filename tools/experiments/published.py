@@ -8,6 +8,8 @@ living a group's intentions one after another; group learning in blocks and at r
 TARGETS: what the design demands (must) and hopes for (aim); None: no such figure.
 """
 
+from report import Frame
+
 DISSERTATION = {"mean": 3.02, "session 1": 6.68, "sessions 2-5": 4.15, "sessions 15-20": 1.94,
                 "count": 5.67, "random over the scene": 16.63, "random over all": 14.77}
 
@@ -33,3 +35,17 @@ TARGETS = {  # name: (dissertation and peers, must, aim)
     "wrong 0.2": ("57 %", 0.01, 0.002),
     "time": ("", 100, 30),
 }
+
+FRAME = Frame(
+    title="Experiments",
+    head="""\
+Made by `make experiments` (some minutes; `tools/experiments/run --help`): the dissertation's evaluation of the
+intention network, and ours; [pose](pose/README.md) has the evaluation of the pose fits. Nothing here is written by
+hand; the same sources make the same figures, but for times. The author's sessions themselves are not part of this
+repository.
+
+Measured: {version}, by `{command}`. Lower is better everywhere; intervals and bands are 95 %.""",
+    goals="\"must\" and \"aim\" are the design's. They will be judged on other groups, users and seeds of the "
+          "same kinds; here groups 1 and 2 stand for them. Judged at the decimals shown.",
+    reference="dissertation, published",
+    targets=TARGETS)
