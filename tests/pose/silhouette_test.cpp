@@ -49,7 +49,7 @@ TEST(Silhouette, GrazesTheShape) {
     EXPECT_GT(silhouette.rays_F.size, 40);
     EXPECT_LE(silhouette.rays_F.size, 96);
     EXPECT_NEAR(TotalWeight(silhouette.rays_F), 1, 1e-5);
-    EXPECT_FALSE(silhouette.cut);
+    EXPECT_TRUE(silhouette.cuts.empty());
     double sum = 0;
     for (const double miss_m : Misses(view.shape_C, silhouette.rays_F)) {
       EXPECT_LT(std::abs(miss_m), kPixel_m);
@@ -138,7 +138,7 @@ TEST(Silhouette, TakesOnlyTheRimWithTheBackgroundBeyondIt) {
   EXPECT_EQ(silhouette.rays_F.size, farther);
   EXPECT_NEAR(TotalWeight(silhouette.rays_F), static_cast<double>(farther) / 64, 1e-5);
   EXPECT_TRUE(silhouette.straights.empty());
-  EXPECT_FALSE(silhouette.cut);
+  EXPECT_TRUE(silhouette.cuts.empty());
   for (int i = 0; i < silhouette.rays_F.size; ++i) {
     const Vector3d ray = silhouette.rays_F.at(i) / silhouette.rays_F.at(i).z();
     // Half a pixel outside the rim, on its side.
@@ -167,14 +167,14 @@ TEST(Silhouette, KnowsTheSideThatIsHidden) {
       return turn > 1 && turn < M_PI - 1 ? hiding : Beyond::kFarther;
     });
     const Silhouette silhouette = TraceSilhouette(BallPoints(), rim, kOrigin, {}, {});
-    ASSERT_TRUE(silhouette.cut);
-    EXPECT_GT(silhouette.cut->normal_F.y(), 0.99);
-    EXPECT_TRUE(silhouette.cut->rays.empty());
-    EXPECT_NEAR(silhouette.cut->width_rad, 0.0625 * 1.95, 0.01);
+    ASSERT_EQ(silhouette.cuts.size(), 1u);
+    EXPECT_GT(silhouette.cuts[0].normal_F.y(), 0.99);
+    EXPECT_TRUE(silhouette.cuts[0].rays.empty());
+    EXPECT_NEAR(silhouette.cuts[0].width_rad, 0.0625 * 1.95, 0.01);
   }
   const auto all = RimOfBall([](double) { return Beyond::kNearer; });
   const Silhouette hidden = TraceSilhouette(BallPoints(), all, {}, {}, {});
-  EXPECT_FALSE(hidden.cut);
+  EXPECT_TRUE(hidden.cuts.empty());
   EXPECT_EQ(hidden.rays_F.size, 0);
 }
 
