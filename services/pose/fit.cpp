@@ -59,6 +59,39 @@ std::string Unfit(const PrincipalBox& box, const FitConfig& config) {
   return "";
 }
 
+// Why the points cannot stand on the table that is told, or be seen from the viewpoint; empty where
+// they can.
+std::string Misplaced(const PointList& points, const FitInput& input, const FitConfig& config) {
+  constexpr double kUnit = 1e-3;  // what a normal's length may be off
+  if (!input.viewpoint_F.allFinite()) return "the viewpoint is not finite";
+  if (!input.table_F) return "";
+  const Plane& table = *input.table_F;
+  const double length = table.normal.norm();
+  if (!(std::abs(length - 1) <= kUnit)) {
+    return Text("the table's plane is not one: its normal has length %.4g, not 1", length);
+  }
+  if (!std::isfinite(table.offset_m))
+    return "the table's plane is not one: its offset is not finite";
+  const auto below = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
+    return table.Distance(p) < -config.below_table_m;
+  });
+  const double share = static_cast<double>(below) / static_cast<double>(points.size());
+  if (share <= config.max_below_share) return "";
+  return Text(
+      "%.0f %% of the points lie more than %.4g m below the table's plane: is it this object's, "
+      "and "
+      "does its normal point up?",
+      100 * share, config.below_table_m);
+}
+
+std::vector<RimPoint> FiniteRim(std::span<const RimPoint> rim) {
+  std::vector<RimPoint> finite;
+  for (const RimPoint& r : rim) {
+    if (r.point.allFinite()) finite.push_back(r);
+  }
+  return finite;
+}
+
 // What is told of an object that cannot be fitted: its box as an ellipsoid.
 Superquadric BoxOf(const PrincipalBox& box) {
   Superquadric shape;
@@ -181,9 +214,12 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   result.reason = points.size() < kFewestPoints
                       ? Text("%zu finite points, fewer than %zu", points.size(), kFewestPoints)
                       : Unfit(box, config);
+  if (result.reason.empty()) result.reason = Misplaced(points, input, config);
   if (!result.reason.empty()) return result;
 
-  const MethodOutcome outcome = FitBy(config, points, input);
+  const std::vector<RimPoint> rim_F = FiniteRim(input.rim_F);
+  const FitInput sound{input.points_F, input.table_F, input.viewpoint_F, rim_F};
+  const MethodOutcome outcome = FitBy(config, points, sound);
   result.iterations = outcome.iterations;
   if (!IsFinite(outcome.shape)) {
     result.reason = "the fit did not stay finite";
@@ -205,7 +241,7 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   }
   result.converged = result.reason.empty();
   if (config.method == Method::kAdaptive) {
-    result.parts = FindParts(points, input.table_F, input.viewpoint_F, input.rim_F, result.shape,
+    result.parts = FindParts(points, sound.table_F, sound.viewpoint_F, sound.rim_F, result.shape,
                              config.adaptive, config.parts);
   }
   return result;

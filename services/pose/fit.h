@@ -38,14 +38,19 @@ struct FitConfig {
   double min_extent_m = 0.005;  // one smaller than this shows nothing
   double max_radial_distance_m =
       0.01;  // a fit whose points are farther from it on average did not converge
+  // Where more than this part of the points lies deeper than this below the table, the plane is not
+  // what they stand on.
+  double max_below_share = 0.3;
+  double below_table_m = 0.02;
 };
 
 /// Points of one object in a frame F.
 struct FitInput {
-  std::span<const Eigen::Vector3f> points_F;              // m; NaN and infinite points are left out
-  std::optional<Plane> table_F;                           // normal up; the object stands on it
+  std::span<const Eigen::Vector3f> points_F;  // m; NaN and infinite points are left out
+  std::optional<Plane> table_F;               // normal up, unit; the object stands on it
   Eigen::Vector3d viewpoint_F = Eigen::Vector3d::Zero();  // where the camera was
-  // What the image shows around the object; empty where the points are all that is known.
+  // What the image shows around the object; empty where the points are all that is known. Points
+  // that are not finite are left out.
   std::span<const RimPoint> rim_F;
 };
 
@@ -65,7 +70,8 @@ struct FitResult {
   int points_used = 0;          // finite points
 };
 
-/// Fits by the configured method. Deterministic.
+/// Fits by the configured method; does not where the points show no shape, or the table or the
+/// viewpoint cannot be theirs, and says so. Deterministic.
 FitResult Fit(const FitInput& input, const FitConfig& config);
 
 }  // namespace beckon::pose

@@ -208,11 +208,12 @@ std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& 
 
 // The Hessian of the cost, a mean of squares, in units of information: neighbours err together, so
 // that hundreds of points do not know as much as if they were independent, and how badly the
-// outline fits tells how much else is not in the model.
+// outline fits tells how much else is not in the model. Where points are so few that none is left
+// out, the outermost lie well within the outline, and the fit errs by more than their number tells.
 ParameterMatrix InformationOf(const Candidate& c, size_t n_points, const AdaptiveConfig& config) {
   const double unexplained = 1 + c.cost.outline / config.outline_clean_m2;
-  const double witnesses =
-      config.witnesses * std::min(static_cast<double>(n_points) / config.fine_points, 1.0);
+  const double enough = std::min(static_cast<double>(n_points) / config.fine_points, 1.0);
+  const double witnesses = config.witnesses * enough * enough * enough;
   const double variance = unexplained * unexplained * std::max(c.cost.points, kLeastVariance_m2);
   return ParameterMatrix(c.result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
          (witnesses / variance);

@@ -136,6 +136,8 @@ Result<PoseConfig> ReadPoseConfig(ConfigTable table) {
   limits.Get("max_extent_m", config.fit.max_extent_m, 0.01, 100);
   limits.Get("min_extent_m", config.fit.min_extent_m, 0, 1);
   limits.Get("max_radial_distance_m", config.fit.max_radial_distance_m, 0, 1);
+  limits.Get("max_below_share", config.fit.max_below_share, 0, 1);
+  limits.Get("below_table_m", config.fit.below_table_m, 0, 1);
   ReadAdaptive(table.Section("adaptive"), config.fit.adaptive);
   ReadMultiscale(table.Section("multiscale"), config.fit.multiscale);
   ReadClassic(table.Section("classic"), config.fit.classic);

@@ -314,16 +314,18 @@ Silhouette TraceSilhouette(std::span<const Eigen::Vector3d> points_F,
     const int lines = static_cast<int>(std::floor(hi[1 - axis] - first)) + 1;
     Extremes e;
     FindExtremes(image, axis, first, lines, e);
-    for (size_t line = 0; line < e.lo.size(); ++line) {
-      if (e.lo_point[line] < 0) continue;
-      for (const bool high : {false, true}) {
-        const int point = high ? e.hi_point[line] : e.lo_point[line];
-        border.push_back(image[static_cast<size_t>(point)]);
-        if (!RunsAcross(high ? e.hi : e.lo, high ? e.hi_point : e.lo_point, line)) continue;
-        Eigen::Vector2d outward = Eigen::Vector2d::Zero();
-        outward[axis] = high ? 0.5 : -0.5;
-        const bool usable = !table_F || table_F->Distance(points_F[static_cast<size_t>(point)]) >=
-                                            config.table_margin_m;
+    // One side after the other: every so manieth of them is then of both.
+    for (const bool high : {false, true}) {
+      const std::vector<double>& extreme = high ? e.hi : e.lo;
+      const std::vector<int>& points_of = high ? e.hi_point : e.lo_point;
+      Eigen::Vector2d outward = Eigen::Vector2d::Zero();
+      outward[axis] = high ? 0.5 : -0.5;
+      for (size_t line = 0; line < extreme.size(); ++line) {
+        if (points_of[line] < 0) continue;
+        const size_t point = static_cast<size_t>(points_of[line]);
+        border.push_back(image[point]);
+        if (!RunsAcross(extreme, points_of, line)) continue;
+        const bool usable = !table_F || table_F->Distance(points_F[point]) >= config.table_margin_m;
         if (usable) outline.push_back({border.back(), outward, usable});
       }
     }

@@ -1,6 +1,8 @@
 // Clouds of known superquadrics for tests: whole surfaces, and what one camera sees of them.
 #include "tests/pose/views.h"
 
+#include <algorithm>
+
 namespace beckon::pose {
 
 Superquadric MakeShape(const Eigen::Vector3d& semi_axes, double e1, double e2,
@@ -107,6 +109,45 @@ TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m, un
     view.points_C.push_back((p * (1 + sigma_m * noise(engine) / p.z())).cast<float>());
   }
   return view;
+}
+
+TableView PixelViewOnTable(const Superquadric& shape_W, double sigma_m, unsigned seed) {
+  const Pose X_WC = CameraAtTable(), X_CW = X_WC.inverse();
+  TableView view;
+  view.shape_C = shape_W;
+  view.shape_C.X_FO = X_CW * shape_W.X_FO;
+  view.table_C = {X_CW.linear().col(2), X_WC.translation().z()};
+  const Intrinsics intrinsics;
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> noise(0, 1);
+  const Eigen::Vector3d& centre_C = view.shape_C.X_FO.translation();
+  const Eigen::Vector2d middle = intrinsics.Project(centre_C);
+  const double reach_m = shape_W.semi_axes.norm();
+  const int reach = static_cast<int>(1.2 * intrinsics.fx * reach_m / (centre_C.z() - reach_m));
+  const int u0 = static_cast<int>(middle.x()), v0 = static_cast<int>(middle.y());
+  for (int v = std::max(v0 - reach, 0); v < std::min(v0 + reach, 480); ++v) {
+    for (int u = std::max(u0 - reach, 0); u < std::min(u0 + reach, 640); ++u) {
+      const Eigen::Vector3d ray = intrinsics.Unproject(u, v, 1);
+      const double depth_m = EntryDepth(view.shape_C, ray);
+      if (depth_m == 0 || view.table_C.Distance(depth_m * ray) < 0) continue;
+      view.points_C.push_back(((depth_m + sigma_m * noise(engine)) * ray).cast<float>());
+    }
+  }
+  return view;
+}
+
+CutLine CutAway(double angle_rad, double share, std::vector<Eigen::Vector3f>& points_C) {
+  const Eigen::Vector2d normal(std::cos(angle_rad), std::sin(angle_rad));
+  const auto along = [&](const Eigen::Vector3f& p) {
+    return normal.dot(p.head<2>().cast<double>()) / static_cast<double>(p.z());
+  };
+  std::vector<double> sorted;
+  for (const auto& p : points_C) sorted.push_back(along(p));
+  std::sort(sorted.begin(), sorted.end());
+  const double offset =
+      sorted[static_cast<size_t>((1 - share) * static_cast<double>(sorted.size() - 1))];
+  std::erase_if(points_C, [&](const auto& p) { return along(p) > offset; });
+  return {normal, offset};
 }
 
 }  // namespace beckon::pose

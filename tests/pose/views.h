@@ -28,6 +28,17 @@ struct TableView {
 TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m = 0,
                       unsigned seed = 1);
 
+/// What a camera of 640 x 480 pixels sees from there: a point a pixel, with noise along the rays.
+TableView PixelViewOnTable(const Superquadric& shape_W, double sigma_m = 0, unsigned seed = 1);
+
+/// A side of a view that is cut away: of the image plane, where normal.(x/z, y/z) > offset.
+struct CutLine {
+  Eigen::Vector2d normal;  // unit
+  double offset;
+};
+/// The line of that direction that cuts away `share` of the points, which go.
+CutLine CutAway(double angle_rad, double share, std::vector<Eigen::Vector3f>& points_C);
+
 /// What that camera sees of several shapes on its table: an image with a label for each.
 struct TableScene {
   RgbdImage image;
