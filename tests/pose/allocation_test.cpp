@@ -57,7 +57,7 @@ TEST(Allocation, DoesNotHappenInTheInnerLoopOfTheAdaptiveFit) {
   const AdaptiveConfig config;
   const Cut cut{Eigen::Vector3d::UnitX(), 0.02, 0.01};
   const AdaptiveProblem whole(points, rays, scene, 2, config);
-  const AdaptiveProblem cut_off(points, rays, scene, 2, config, cut);
+  const AdaptiveProblem cut_off(points, rays, scene, 2, config, {&cut, 1});
   const long before = allocations;
   const double cost = whole.Linearise(view.shape_C).cost + cut_off.Linearise(view.shape_C).cost +
                       whole.CostOf(view.shape_C).total();

@@ -36,6 +36,8 @@ class Scene {
   }
   void AddSolid(const Superquadric& shape_W) {
     for (const Vector3d& p : SampleSurface(shape_W, 60000)) AddPoint(p);
+    truth_C_.push_back(shape_W);
+    truth_C_.back().X_FO = X_CW_ * shape_W.X_FO;
   }
   // Something in front of the pixels for which `hidden` is true; x to the right, y down, px.
   void Hide(const std::function<bool(long x, long y)>& hidden) {
@@ -56,6 +58,7 @@ class Scene {
     return Fit({points, table_C_}, config);
   }
   const Plane& table_C() const { return table_C_; }
+  const std::vector<Superquadric>& truth_C() const { return truth_C_; }
   Vector3d InWorld(const Superquadric& part_C) const {
     return X_CW_.inverse() * part_C.X_FO.translation();
   }
@@ -64,6 +67,7 @@ class Scene {
   static constexpr double kFocal = 525;  // px
   Pose X_CW_;
   Plane table_C_;
+  std::vector<Superquadric> truth_C_;
   std::map<std::pair<long, long>, Vector3d> nearest_;
 };
 
@@ -135,10 +139,18 @@ TEST(PartsTest, FindTheNeckOfABottle) {
 }
 
 TEST(PartsTest, TogetherExplainThePointsBetterThanOneShape) {
-  for (const Scene& scene : {Mug(), Bottle()}) {
-    const FitResult result = scene.FitAll();
-    EXPECT_LT(UnionDistance(result.parts, scene.Points()), 0.8 * result.mean_radial_distance_m);
-  }
+  const Scene mug = Mug(), bottle = Bottle();
+  // A handle is a few pixels wide and its thickness hardly seen: what is gained is little, but
+  // gained.
+  const FitResult with_handle = mug.FitAll();
+  EXPECT_LT(UnionDistance(with_handle.parts, mug.Points()),
+            0.95 * with_handle.mean_radial_distance_m);
+  // A neck is seen well. The noise keeps the points off the true surface too: what counts is the
+  // excess.
+  const FitResult with_neck = bottle.FitAll();
+  const double noise = UnionDistance(bottle.truth_C(), bottle.Points());
+  EXPECT_LT(UnionDistance(with_neck.parts, bottle.Points()) - noise,
+            0.1 * (with_neck.mean_radial_distance_m - noise));
 }
 
 TEST(PartsTest, AreNotFoundWhereOneShapeDoes) {
