@@ -157,6 +157,16 @@ double MeanRadialDistanceOf(const Superquadric& shape, const PointList& points, 
   return sum / static_cast<double>(part.size());
 }
 
+// Where only one flat side is seen, how deep the object is behind it is not known, unless that side
+// lies on top and the table tells: the direction of which nothing is known, or zero.
+Eigen::Vector3d UnseenDepth(const PrincipalBox& box, const std::optional<Plane>& table_F) {
+  constexpr double kFlat_m = 0.0025;  // spread of a flat side with a camera's noise
+  constexpr double kLevel = 0.9;      // cosine
+  const Eigen::Vector3d normal = box.axes.col(2);
+  const bool on_top = table_F && std::abs(normal.dot(table_F->normal)) > kLevel;
+  return box.spread[2] < kFlat_m && !on_top ? normal : Eigen::Vector3d::Zero();
+}
+
 MethodOutcome FitBy(const FitConfig& config, const PointList& points, const FitInput& input) {
   switch (config.method) {
     case Method::kMultiscale:
@@ -232,6 +242,11 @@ FitResult Fit(const FitInput& input, const FitConfig& config) {
   result.covariance = PoseCovariance(
       result.shape, outcome.information ? *outcome.information
                                         : InformationOf(result.shape, Thinned(points, kWitnesses)));
+  if (const Eigen::Vector3d unseen = UnseenDepth(box, input.table_F); !unseen.isZero(0)) {
+    const double depth = box.half_extents.maxCoeff();
+    result.covariance.topLeftCorner<3, 3>() += depth * depth * unseen * unseen.transpose();
+    result.ambiguous = true;
+  }
   if (!outcome.converged) {
     result.reason = "the fit was still improving when its iterations ran out";
   } else if (result.mean_radial_distance_m > config.max_radial_distance_m) {

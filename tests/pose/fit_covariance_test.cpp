@@ -1,6 +1,8 @@
 // Whether the adaptive fit is as sure as it may be.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -67,6 +69,21 @@ TEST(AdaptiveCovariance, OfAHandfulOfPointsIsNeverConfidentAndWrong) {
         << (view.shape_C.X_FO.translation() - result.shape.X_FO.translation()).norm();
   }
   EXPECT_GT(sure, 10);  // nor does it always doubt
+}
+
+TEST(FitAmbiguity, SaysThatNobodyKnowsHowDeepABoxIsThatIsSeenFaceOn) {
+  const Superquadric box = MakeShape({0.04, 0.05, 0.1}, 0.1, 0.1, {0, 0, 0.8});
+  std::mt19937 engine(1);
+  std::normal_distribution<double> noise(0, 0.0015);
+  std::vector<Eigen::Vector3f> face;
+  for (const auto& p : SampleSurface(box, 8000)) {
+    if (p.z() < 0.702) face.push_back((p * (1 + noise(engine) / p.z())).cast<float>());
+  }
+  const FitResult result = Fit({face, {}}, {});
+  const Eigen::Vector3d error = result.shape.X_FO.translation() - box.X_FO.translation();
+  const Eigen::Matrix3d covariance = result.covariance.topLeftCorner<3, 3>();
+  EXPECT_TRUE(!result.converged || result.ambiguous);
+  EXPECT_LT(error.dot(covariance.ldlt().solve(error)), 16);
 }
 
 }  // namespace
