@@ -270,7 +270,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
       outcome.alternatives.push_back(other);
     }
   }
-  outcome.ambiguous = !outcome.alternatives.empty() ||
+  // How far it goes on behind a cut is a guess.
+  outcome.ambiguous = !outcome.alternatives.empty() || !best.view->cuts.empty() ||
                       FootIsUnseen(outcome.shape, spread.points, scene, config.unseen_foot_m);
   return outcome;
 }
