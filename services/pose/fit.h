@@ -58,8 +58,10 @@ struct FitResult {
   Superquadric shape;  // always finite; where nothing was fitted, the points' box as an ellipsoid
   bool converged = false;
   std::string reason;      // why not; empty otherwise
-  bool ambiguous = false;  // a clearly different shape explains the points about as well
-  std::vector<Superquadric> alternatives;  // those shapes, likeliest first
+  // A clearly different shape explains the points about as well, or a part of the shape is a guess: behind what
+  // may cut it off, behind the one flat side that is seen, or below a foot that is not.
+  bool ambiguous = false;
+  std::vector<Superquadric> alternatives;  // those shapes, likeliest first; may be empty
   std::vector<Superquadric> parts;         // where one superquadric does not do: two or more
   double mean_radial_distance_m = 0;
   // Of position (m) and rotation vector (rad) in F, from the Gauss-Newton Hessian scaled by the
