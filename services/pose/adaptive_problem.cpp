@@ -2,6 +2,7 @@
 #include "services/pose/adaptive_problem.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace beckon::pose {
@@ -60,7 +61,9 @@ AdaptiveCost AdaptiveProblem::Add(const Superquadric& shape, NormalEquations& eq
   if (scene_.table) {
     cost.support = AddSupport(shape, eq);
     cost.tilt = AddTilt(shape, eq);
+    if (!TopIsCut()) cost.top = AddTop(shape, eq);
   }
+  cost.proportion = AddProportion(shape, eq);
   for (const Cut& cut : cuts_) cost.cut += AddCut(shape, cut, eq);
   if (!cuts_.empty()) return cost;
   cost.volume = config_.volume_prior_m2 * (shape.semi_axes.array().log().sum() - scene_.log_axes);
@@ -77,6 +80,24 @@ double AdaptiveProblem::AddSupport(const Superquadric& shape, NormalEquations& e
   return config_.support_weight * robust.cost;
 }
 
+// Whether something may hide the highest point of the object.
+bool AdaptiveProblem::TopIsCut() const {
+  constexpr double kUpward = 0.3;
+  return std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) {
+    return cut.normal_F.dot(scene_.table->normal) > kUpward;
+  });
+}
+
+// The shape does not rise above what is seen of it.
+double AdaptiveProblem::AddTop(const Superquadric& shape, NormalEquations& eq) const {
+  ParameterVector jacobian;
+  const double above = Reach(shape, scene_.table->normal, jacobian) + scene_.table->offset_m -
+                       scene_.top_m - config_.top_slack_m;
+  if (above <= 0) return 0;
+  eq.Add(above, jacobian, config_.top_weight);
+  return config_.top_weight * above * above;
+}
+
 // The shape reaches about as far beyond the cut as is expected.
 double AdaptiveProblem::AddCut(const Superquadric& shape, const Cut& cut,
                                NormalEquations& eq) const {
@@ -86,6 +107,21 @@ double AdaptiveProblem::AddCut(const Superquadric& shape, const Cut& cut,
   const double surprise = reach - cut.beyond_m;
   eq.Add(surprise, jacobian, weight);
   return weight * surprise * surprise;
+}
+
+// The semi-axes are of like lengths.
+double AdaptiveProblem::AddProportion(const Superquadric& shape, NormalEquations& eq) const {
+  const Eigen::Array3d logs = shape.semi_axes.array().log();
+  double cost = 0;
+  for (int i = 0; i < 3; ++i) {
+    ParameterVector jacobian = ParameterVector::Zero();
+    jacobian.segment<3>(kLogAxes).setConstant(-1.0 / 3);
+    jacobian[kLogAxes + i] += 1;
+    const double longer = logs[i] - logs.mean();
+    eq.Add(longer, jacobian, config_.proportion_prior_m2);
+    cost += config_.proportion_prior_m2 * longer * longer;
+  }
+  return cost;
 }
 
 // The upright axis has no horizontal components.

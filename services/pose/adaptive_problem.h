@@ -15,6 +15,7 @@ namespace beckon::pose {
 struct TableTopScene {
   std::optional<Plane> table;  // normal up
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  double top_m = 0;  // the highest point that is seen, above the table
   double log_axes =
       0;  // sum of the log semi-axes of what is seen: the prior on the volume is 0 there
 };
@@ -28,8 +29,11 @@ struct Cut {
 
 /// The terms of the cost, m^2; each is there to be looked at.
 struct AdaptiveCost {
-  double points = 0, outline = 0, support = 0, tilt = 0, volume = 0, cut = 0;
-  double total() const { return points + outline + support + tilt + volume + cut; }
+  double points = 0, outline = 0, support = 0, tilt = 0, top = 0, volume = 0, cut = 0,
+         proportion = 0;
+  double total() const {
+    return points + outline + support + tilt + top + volume + cut + proportion;
+  }
 };
 
 /// The cost of AdaptiveConfig about one set of points, rays and cuts, which must outlive it.
@@ -55,7 +59,10 @@ class AdaptiveProblem : public FitProblem {
  private:
   AdaptiveCost Add(const Superquadric& shape, NormalEquations& eq) const;
   double AddSupport(const Superquadric& shape, NormalEquations& eq) const;
+  bool TopIsCut() const;
+  double AddTop(const Superquadric& shape, NormalEquations& eq) const;
   double AddCut(const Superquadric& shape, const Cut& cut, NormalEquations& eq) const;
+  double AddProportion(const Superquadric& shape, NormalEquations& eq) const;
   double AddTilt(const Superquadric& shape, NormalEquations& eq) const;
 
   const PointBlock& points_;

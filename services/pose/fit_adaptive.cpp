@@ -47,8 +47,9 @@ PointBlock EveryThird(const PointBlock& block) {
 struct View {
   PointBlock rays, few_rays;
   std::vector<Cut> cuts = {};
-  double charge = 0;  // m^2, for the cut's improbability
-  double ragged = 0;  // m^2, what the cut's rays cost about their own straight line
+  bool is_guess = false;  // nobody knows whether there is a cut
+  double charge = 0;      // m^2, for the cut's improbability
+  double ragged = 0;      // m^2, what the cut's rays cost about their own straight line
 };
 
 View WholeView(const Silhouette& silhouette) {
@@ -66,7 +67,7 @@ View CutView(const Silhouette& silhouette, const Straight& straight, double dist
              const AdaptiveConfig& config) {
   View view{silhouette.rays_F, {}};
   view.cuts.push_back(CutBehind(straight, distance_m, config));
-  view.charge = config.cut_charge_m2;
+  view.is_guess = true;
   const double scale2 = config.outline_noise_m * config.outline_noise_m;
   const double ragged = straight.mean_square_rad * distance_m * distance_m;
   const double cost_of_ray = config.outline_weight * scale2 * std::log1p(ragged / scale2);
@@ -141,8 +142,8 @@ class Fitter {
     c.cost = problem.CostOf(c.result.shape);
     const double outline = (c.cost.outline + view.ragged) / config_.outline_trust_m2;
     c.outline_share = 1 / (1 + outline);
-    c.score = c.cost.points + c.cost.support + c.cost.tilt + c.cost.volume +
-              config_.outline_trust_m2 * std::log1p(outline) + view.charge;
+    c.score = c.cost.points + c.cost.support + c.cost.tilt + c.cost.top + c.cost.volume +
+              c.cost.proportion + config_.outline_trust_m2 * std::log1p(outline) + view.charge;
     return c;
   }
 
@@ -163,8 +164,14 @@ std::vector<View> ViewsOf(const Silhouette& silhouette, double distance_m,
     views[0].cuts.push_back(CutBehind(s, distance_m, config));
   }
   if (!config.cut_hypotheses) return views;
+  double straightest_rad2 = 1;
+  for (const Straight& s : silhouette.straights) {
+    straightest_rad2 = std::min(straightest_rad2, s.mean_square_rad);
+  }
   for (const Straight& s : silhouette.straights) {
     views.push_back(CutView(silhouette, s, distance_m, config));
+    views.back().charge = config.cut_ragged_m2 * (s.mean_square_rad - straightest_rad2) /
+                          (config.pixel_rad * config.pixel_rad);
   }
   return views;
 }
@@ -182,7 +189,7 @@ std::vector<Candidate> Explore(Fitter& fitter, const std::vector<Superquadric>& 
   const double charge_share = std::pow(candidates[0].outline_share, 3);
   const Superquadric bases[2] = {candidates[0].result.shape, candidates[1].result.shape};
   for (size_t i = 1; i < views.size(); ++i) {
-    views[i].charge *= charge_share;
+    views[i].charge += charge_share * config.cut_charge_m2;
     for (const Superquadric& base : bases) {
       candidates.push_back(fitter.FitCoarsely(base, views[i], config.cut_iterations));
     }
@@ -191,8 +198,9 @@ std::vector<Candidate> Explore(Fitter& fitter, const std::vector<Superquadric>& 
   return candidates;
 }
 
-// The best candidate to all points, and the next that is of another shape if it is about as good;
-// best first.
+// The best candidate to all points, the next that is of another shape if it is about as good, and
+// where the best is cut off the best that is whole: a coarse fit does not go on behind a cut far
+// enough to be compared. Best first.
 std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& candidates,
                                   double runner_up) {
   std::vector<Candidate> refined{fitter.Refine(candidates[0])};
@@ -201,6 +209,11 @@ std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& 
     if (!LookDifferent(candidates[0].result.shape, candidates[i].result.shape)) continue;
     refined.push_back(fitter.Refine(candidates[i]));
     break;
+  }
+  if (candidates[0].view->is_guess) {
+    const auto whole = std::find_if(candidates.begin(), candidates.end(),
+                                    [](const Candidate& c) { return !c.view->is_guess; });
+    if (whole != candidates.end()) refined.push_back(fitter.Refine(*whole));
   }
   std::stable_sort(refined.begin(), refined.end(), Better);
   return refined;
@@ -239,6 +252,19 @@ bool FootIsUnseen(const Superquadric& shape, const PointList& points, const Tabl
   return false;
 }
 
+// The height above the table of the highest point, but for a few that fly.
+double SeenTop(const SpreadPoints& spread, const std::optional<Plane>& table) {
+  if (!table) return 0;
+  std::vector<double> heights;
+  for (size_t i = 0; i < spread.points.size(); ++i) {
+    if (spread.weights[i] > 0.9) heights.push_back(table->Distance(spread.points[i]));
+  }
+  if (heights.empty()) return 0;
+  const auto top = heights.end() - 1 - static_cast<long>(heights.size() / 100);
+  std::nth_element(heights.begin(), top, heights.end());
+  return *top;
+}
+
 }  // namespace
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
@@ -246,7 +272,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
                           const AdaptiveConfig& config) {
   const SpreadPoints spread = SpreadEvenly(points_F, config.fine_points);
   const std::vector<Superquadric> starts = Starts(spread.points, table_F);
-  const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
+  const TableTopScene scene{table_F, viewpoint_F, SeenTop(spread, table_F),
+                            starts[0].semi_axes.array().log().sum()};
   const Silhouette silhouette =
       TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});

@@ -29,10 +29,17 @@ struct AdaptiveConfig {
   double max_epsilon = 1.0;
   // Times log volume: of two shapes that fit as well, the smaller. Not where a side is cut off.
   double volume_prior_m2 = 5e-7;
+  // Times the squared deviations of the log semi-axes from their mean: of two shapes that fit as
+  // well, the one of more even proportions. Few objects are like a sheet.
+  double proportion_prior_m2 = 3e-7;
   // What the table adds.
   double support_weight = 1.0;     // the lowest point of the shape lies on the table
   double support_noise_m = 0.003;  // scale of its Cauchy weight
-  double tilt_weight = 1e-4;       // m^2/rad^2: one axis is vertical
+  double tilt_weight = 5e-5;       // m^2/rad^2: one axis is vertical
+  // Of the squared height by which the shape rises more than top_slack_m above what is seen: who
+  // looks down on a thing sees its top, unless that is cut off.
+  double top_weight = 0.003;
+  double top_slack_m = 0.005;
   // Where the shape should be seen this much lower than it is, it may stand on another: ambiguous.
   double unseen_foot_m = 0.03;
   // What the viewpoint adds: rays along the visible outline graze the shape.
@@ -41,28 +48,31 @@ struct AdaptiveConfig {
   double outline_noise_m = 0.0006;  // scale of their Cauchy weights where the shape goes on beyond,
   double outline_outside_m = 0.003;  // and where it falls short of the ray
   double outline_trust_m2 = 4e-7;    // an outline that costs as much as this is worth half
-  double outline_clean_m2 =
-      1e-7;                      // and one that costs more than this lowers the covariance's claims
-  double pixel_rad = 1.0 / 525;  // the outline runs half a pixel outside the outermost points
+  // And one that costs more than this lowers the covariance's claims.
+  double outline_clean_m2 = 1e-7;
+  double pixel_rad = 1.0 / 525;   // the outline runs half a pixel outside the outermost points
   double table_margin_m = 0.015;  // outline this near the table is the table's doing
   // Where nobody knows what lies beyond the outline, a straight piece of it may be where something
   // cuts the object off. It is if that lowers the cost by more than cut_charge_m2, or less the
-  // worse the whole outline fits. The object is then expected to go on by cut_beyond of what is
-  // seen of it, give or take cut_sigma.
+  // worse the whole outline fits. Of several pieces the straightest is the likeliest, since the
+  // edges of objects look ragged; the others are charged cut_ragged_m2 for each square pixel by
+  // which their mean square deviation is larger. The object is then expected to go on by cut_beyond
+  // of what is seen of it, give or take cut_sigma.
   bool cut_hypotheses = true;
   double cut_charge_m2 = 2.4e-6;
+  double cut_ragged_m2 = 2e-7;
   double cut_pull_m2 = 1e-7;  // weight of that expectation
   double cut_beyond = 0.5;
   double cut_sigma = 0.2;
   int cut_iterations = 5;
-  double witnesses =
-      400;  // how many points the covariance counts, as if independent, where all fits
+  // How many points the covariance counts, as if independent, where all fits.
+  double witnesses = 500;
 };
 
 /// Fits a superquadric to at least 20 points that are not coplanar. The start is the best of
 /// upright and lying boxes, cylinders and an ellipsoid; the cost is
-///   mean of Cauchy(distance of a point to the surface) + prior on the volume
-///   + table: Cauchy(height of the lowest point) + tilt^2
+///   mean of Cauchy(distance of a point to the surface) + priors on volume and proportions
+///   + table: Cauchy(height of the lowest point) + tilt^2 + (height above the seen top)^2
 ///   + outline: mean of Cauchy(distance of a ray to the surface).
 /// A ray of the outline grazes the surface: the point of the ray where the gauge is least lies on
 /// it. Where something cuts the object off, the rays there say nothing, the prior on the volume is

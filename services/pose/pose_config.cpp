@@ -17,6 +17,10 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
   table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
   table.Get("volume_prior_m2", c.volume_prior_m2, 0, 1);
+  table.Get("cut_ragged_m2", c.cut_ragged_m2, 0, 1);
+  table.Get("top_slack_m", c.top_slack_m, 0, 1);
+  table.Get("top_weight", c.top_weight, 0, 100);
+  table.Get("proportion_prior_m2", c.proportion_prior_m2, 0, 1);
   table.Get("support_weight", c.support_weight, 0, 1e6);
   table.Get("support_noise_m", c.support_noise_m, 1e-5, 1);
   table.Get("unseen_foot_m", c.unseen_foot_m, 0, 10);
