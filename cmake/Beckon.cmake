@@ -4,7 +4,7 @@ function(beckon_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Off: designated initialisers leave fields out on purpose; g++ 12's -Wrestrict errs on std::string.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-    -Wno-unused-parameter -Wno-missing-field-initializers -Wno-restrict)
+    -Wno-unused-parameter -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
@@ -41,6 +41,22 @@ function(beckon_test name)
   target_compile_definitions(${name} PRIVATE BECKON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
     PROPERTIES ENVIRONMENT BECKON_SHARE=${PROJECT_BINARY_DIR}/share/beckon LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+endfunction()
+
+# beckon_fuzzer(NAME FUNCTION SOURCES... LINK LIBRARIES...): a libFuzzer program that feeds FUNCTION; part of the
+# target fuzzers
+function(beckon_fuzzer name function)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_UNPARSED_ARGUMENTS})
+  beckon_compile_options(${name})
+  target_compile_definitions(${name} PRIVATE BECKON_HARNESS=${function})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  if(NOT TARGET fuzzers)
+    add_custom_target(fuzzers)
+  endif()
+  add_dependencies(fuzzers ${name})
 endfunction()
 
 # beckon_share(FILES...): data that programs find through SharedFile(); in the build tree and installed

@@ -19,6 +19,8 @@ constexpr int kJudges = 1000;  // points that the mean distance is taken of, at 
 // Points that the covariance counts, at most: neighbours in a depth image err together, so that ten
 // thousand of them do not know ten times as much as a hundred.
 constexpr int kWitnesses = 300;
+// From the frame's origin: no depth camera sees farther, and single precision is coarse there.
+constexpr double kFarthest_m = 100;
 constexpr double kThinnest_m = 0.0005;  // spread below which points lie on a plane or a line
 
 constexpr std::array<std::pair<Method, const char*>, 4> kMethods{
@@ -50,6 +52,10 @@ std::string Unfit(const PrincipalBox& box, const FitConfig& config) {
     return Text(
         "the points span %.4g m, more than %.4g m: are they in millimetres, or of several objects?",
         extent, config.max_extent_m);
+  }
+  if (const double distance = box.middle.norm(); distance > kFarthest_m) {
+    return Text("the points lie %.4g m away, more than %.4g m: are they in millimetres?", distance,
+                kFarthest_m);
   }
   if (extent < config.min_extent_m) {
     return Text("the points span %.4g m, less than %.4g m", extent, config.min_extent_m);
@@ -94,10 +100,11 @@ std::vector<RimPoint> FiniteRim(std::span<const RimPoint> rim) {
 
 // What is told of an object that cannot be fitted: its box as an ellipsoid.
 Superquadric BoxOf(const PrincipalBox& box) {
+  constexpr double kFar_m = 500;  // with the semi-axes, within what messages carry
   Superquadric shape;
-  shape.semi_axes = box.half_extents.cwiseMax(0.001).cwiseMin(50);  // within what messages carry
+  shape.semi_axes = box.half_extents.cwiseMax(0.001).cwiseMin(50);
   shape.X_FO.linear() = box.axes;
-  shape.X_FO.translation() = box.middle;
+  shape.X_FO.translation() = box.middle * std::min(1.0, kFar_m / box.middle.norm());
   return shape;
 }
 

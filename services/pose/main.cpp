@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   app.add_option("--json", offline.json, "Where the poses go")->type_name("OUT.json");
   app.add_option("--picture", offline.picture, "Where a picture of them goes")
       ->type_name("OUT.png");
-  app.add_option("--mesh", offline.mesh, "Where the converged shapes go as triangles")
+  app.add_option("--mesh", offline.mesh, "Where the converged shapes and parts go as triangles")
       ->type_name("OUT.ply");
   app.add_option("--repeat", offline.repeat, "Fits of each cloud; the median time is told")
       ->check(CLI::Range(1, 1000000));

@@ -47,28 +47,35 @@ TriangleMesh MakeMesh(const Superquadric& shape, int segments) {
   return mesh;
 }
 
-void Append(const TriangleMesh& more, TriangleMesh& mesh) {
-  const int first = static_cast<int>(mesh.vertices_F.size());
-  mesh.vertices_F.insert(mesh.vertices_F.end(), more.vertices_F.begin(), more.vertices_F.end());
-  for (const auto& [a, b, c] : more.triangles) {
-    mesh.triangles.push_back({first + a, first + b, first + c});
+std::string MeshToPly(const std::vector<MeshPiece>& pieces) {
+  size_t vertices = 0, triangles = 0;
+  for (const MeshPiece& piece : pieces) {
+    vertices += piece.mesh.vertices_F.size();
+    triangles += piece.mesh.triangles.size();
   }
-}
-
-std::string MeshToPly(const TriangleMesh& mesh) {
-  std::string text = "ply\nformat ascii 1.0\nelement vertex " +
-                     std::to_string(mesh.vertices_F.size()) +
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) +
                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                     std::to_string(mesh.triangles.size()) +
-                     "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const auto& p : mesh.vertices_F) {
-    for (int i = 0; i < 3; ++i) {
-      AppendNumber(p[i], text);
-      text += i < 2 ? ' ' : '\n';
+                     std::to_string(triangles) +
+                     "\nproperty list uchar int vertex_indices\nproperty int object\n"
+                     "property int part\nend_header\n";
+  for (const MeshPiece& piece : pieces) {
+    for (const auto& p : piece.mesh.vertices_F) {
+      for (int i = 0; i < 3; ++i) {
+        AppendNumber(p[i], text);
+        text += i < 2 ? ' ' : '\n';
+      }
     }
   }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    text += "3 " + std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
+  size_t first = 0;  // vertex of the piece
+  for (const MeshPiece& piece : pieces) {
+    const std::string end =
+        ' ' + std::to_string(piece.object) + ' ' + std::to_string(piece.part) + '\n';
+    for (const auto& triangle : piece.mesh.triangles) {
+      text += '3';
+      for (int corner : triangle) text += ' ' + std::to_string(first + static_cast<size_t>(corner));
+      text += end;
+    }
+    first += piece.mesh.vertices_F.size();
   }
   return text;
 }

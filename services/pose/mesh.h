@@ -20,10 +20,15 @@ struct TriangleMesh {
 /// edges of the mesh.
 TriangleMesh MakeMesh(const Superquadric& shape, int segments);
 
-/// Adds another mesh of the same frame.
-void Append(const TriangleMesh& more, TriangleMesh& mesh);
+/// A mesh of a file and what it is of.
+struct MeshPiece {
+  TriangleMesh mesh;
+  int object = 1;
+  int part = 0;  // 0 = the object as one shape, k = the k-th of its parts
+};
 
-/// The text of a PLY file (ascii 1.0), metres.
-std::string MeshToPly(const TriangleMesh& mesh);
+/// The text of a PLY file (ascii 1.0) of meshes in the same frame, metres. Each face tells its
+/// piece's `object` and `part`.
+std::string MeshToPly(const std::vector<MeshPiece>& pieces);
 
 }  // namespace beckon::pose

@@ -114,15 +114,21 @@ Status DrawLabelled(const std::string &path, const RgbdImage &image,
   return DrawScene(path, image, objects, gripper);
 }
 
-// The surfaces of the fits that converged, as one PLY file.
+// The surfaces of the fits that converged and of their parts, as one PLY file.
 Status WriteMesh(const std::string &path, const std::vector<CloudPose> &poses) {
   constexpr int kSegments = 64;
-  TriangleMesh mesh;
-  for (const CloudPose &pose : poses) {
-    const FitResult &fit = pose.estimate.fit;
-    if (fit.converged) Append(MakeMesh(fit.shape, kSegments), mesh);
+  std::vector<MeshPiece> pieces;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const FitResult &fit = poses[i].estimate.fit;
+    if (!fit.converged) continue;
+    const int object = static_cast<int>(i) + 1;
+    pieces.push_back({MakeMesh(fit.shape, kSegments), object, 0});
+    for (const Superquadric &part : fit.parts) {
+      const int number = pieces.back().part + 1;
+      pieces.push_back({MakeMesh(part, kSegments), object, number});
+    }
   }
-  return WriteTextFile(path, MeshToPly(mesh));
+  return WriteTextFile(path, MeshToPly(pieces));
 }
 
 }  // namespace

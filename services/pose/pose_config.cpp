@@ -6,16 +6,31 @@
 namespace beckon::pose {
 namespace {
 
+// What the shapes of a method are kept within.
+template <typename MethodConfig>
+void ReadBounds(ConfigTable& table, MethodConfig& c) {
+  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
+  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
+  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
+  if constexpr (requires { c.axis_margin_m; }) table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
+  if constexpr (requires { c.max_taper; }) table.Get("max_taper", c.max_taper, 0, 0.9);
+}
+
+void ReadVoxels(ConfigTable& table, std::vector<double>& voxels_m) {
+  table.Get("voxels_m", voxels_m);
+  for (double voxel_m : voxels_m) {
+    if (!(voxel_m >= 1e-4)) table.Fail("voxels_m", "every voxel is at least 0.0001 m long");
+  }
+}
+
 void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
+  ReadBounds(table, c);
   table.Get("coarse_points", c.coarse_points, 20, 100000);
   table.Get("fine_points", c.fine_points, 20, 100000);
   table.Get("coarse_iterations", c.coarse_iterations, 1, 1000);
   table.Get("fine_iterations", c.fine_iterations, 1, 1000);
   table.Get("noise_m", c.noise_m, 1e-5, 0.1);
-  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
   table.Get("axis_margin", c.axis_margin, 0, 10);
-  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
-  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
   table.Get("volume_prior_m2", c.volume_prior_m2, 0, 1);
   table.Get("cut_ragged_m2", c.cut_ragged_m2, 0, 1);
   table.Get("top_slack_m", c.top_slack_m, 0, 1);
@@ -44,39 +59,24 @@ void ReadAdaptive(ConfigTable table, AdaptiveConfig& c) {
   table.Get("table_margin_m", c.table_margin_m, 0, 1);
 }
 
-void CheckVoxels(ConfigTable& table, const std::vector<double>& voxels_m) {
-  for (double voxel_m : voxels_m) {
-    if (!(voxel_m >= 1e-4)) table.Fail("voxels_m", "every voxel is at least 0.0001 m long");
-  }
-}
-
 void ReadMultiscale(ConfigTable table, MultiscaleConfig& c) {
-  table.Get("voxels_m", c.voxels_m);
-  CheckVoxels(table, c.voxels_m);
+  ReadBounds(table, c);
+  ReadVoxels(table, c.voxels_m);
   table.Get("smooth_m", c.smooth_m, 0, 1);
   table.Get("max_iterations", c.max_iterations, 1, 1000);
   table.Get("stop_change", c.stop_change, 0, 1);
-  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
-  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
-  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
-  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
-  table.Get("max_taper", c.max_taper, 0, 0.9);
 }
 
 void ReadClassic(ConfigTable table, ClassicConfig& c) {
+  ReadBounds(table, c);
   table.Get("points", c.points, 20, 100000);
   table.Get("max_iterations", c.max_iterations, 1, 1000);
   table.Get("tolerance", c.tolerance, 0, 1);
-  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
-  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
-  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
-  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
-  table.Get("max_taper", c.max_taper, 0, 0.9);
 }
 
 void ReadHierarchical(ConfigTable table, HierarchicalConfig& c) {
-  table.Get("voxels_m", c.voxels_m);
-  CheckVoxels(table, c.voxels_m);
+  ReadBounds(table, c);
+  ReadVoxels(table, c.voxels_m);
   table.Get("hypotheses", c.hypotheses, 1, 100000);
   table.Get("keep", c.keep, 0, 1);
   table.Get("min_region", c.min_region, 0, 1);
@@ -87,10 +87,6 @@ void ReadHierarchical(ConfigTable table, HierarchicalConfig& c) {
   table.Get("fine_iterations", c.fine_iterations, 1, 1000);
   table.Get("inlier_m", c.inlier_m, 1e-5, 0.1);
   table.Get("seed", c.seed, 0);
-  table.Get("min_semi_axis_m", c.min_semi_axis_m, 1e-4, 0.1);
-  table.Get("axis_margin_m", c.axis_margin_m, 0, 1);
-  table.Get("min_epsilon", c.min_epsilon, kMinEpsilon, 1);
-  table.Get("max_epsilon", c.max_epsilon, 1, kMaxEpsilon);
 }
 
 void ReadParts(ConfigTable table, PartsConfig& c) {

@@ -38,7 +38,8 @@ SceneEstimator::Known* SceneEstimator::FindSame(const msg::SceneObject& object,
                                                 const msg::Scene& scene) {
   const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
     return k.pose.object_id == object.id && k.points_C == object.points_C &&
-           k.rim_C == object.rim_C && k.X_WC.matrix() == scene.X_WC.matrix();
+           k.rim_C == object.rim_C && k.has_table == scene.has_table &&
+           k.X_WC.matrix() == scene.X_WC.matrix();
   });
   return known == known_.end() ? nullptr : &*known;
 }
@@ -54,7 +55,7 @@ FitInput SceneEstimator::InputOf(const Known& known, const msg::Scene& scene) {
 SceneEstimator::Known SceneEstimator::FitOne(const msg::SceneObject& object,
                                              const msg::Scene& scene) {
   const Stopwatch stopwatch;
-  Known known{object.points_C, object.rim_C, scene.X_WC, {}, 0, {}};
+  Known known{object.points_C, object.rim_C, scene.has_table, scene.X_WC, {}, 0, {}};
   known.fit = FitObject(InputOf(known, scene), config_.fit);
   known.fit_ms = stopwatch.Milliseconds();
   known.pose.object_id = object.id;

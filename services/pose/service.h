@@ -17,7 +17,7 @@ namespace beckon::pose {
 struct PoseCounts {
   int64_t scenes = 0;         // answered by POSES
   int64_t fitted = 0;         // objects
-  int64_t reused = 0;         // objects whose points, rim and camera had not changed
+  int64_t reused = 0;         // objects whose points, rim, table and camera had not changed
   int64_t not_converged = 0;  // of those fitted
 };
 
@@ -35,6 +35,7 @@ class SceneEstimator {
   struct Known {
     std::vector<Eigen::Vector3f> points_C;
     std::vector<RimPoint> rim_C;
+    bool has_table;
     Pose X_WC;
     FitResult fit;
     double fit_ms = 0;  // of the fit alone

@@ -103,7 +103,9 @@ TEST(SceneMessage, TellsWhatLiesBeyondTheRims) {
   for (const RimPoint& rim : front.rim_C) {
     const double height_m = (scene.X_WC * rim.point.cast<double>()).z();
     EXPECT_NE(rim.beyond, Beyond::kNearer);
-    if (height_m > 0.04) EXPECT_EQ(rim.beyond, Beyond::kFarther) << height_m;
+    if (height_m > 0.04) {
+      EXPECT_EQ(rim.beyond, Beyond::kFarther) << height_m;
+    }
   }
 }
 
@@ -154,7 +156,9 @@ TEST(SceneMessage, OfSixtyFourObjectsFitsOneDatagram) {
     EXPECT_EQ(scene.objects.size(), 64u);
     for (const auto& object : scene.objects) {
       EXPECT_GE(object.points_C.size(), 20u);
-      if (n_categories == 0) EXPECT_GE(object.rim_C.size(), 16u);
+      if (n_categories == 0) {
+        EXPECT_GE(object.rim_C.size(), 16u);
+      }
     }
   }
 }

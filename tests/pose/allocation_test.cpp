@@ -10,9 +10,12 @@
 namespace {
 thread_local long allocations = 0;
 
-void* Allocate(size_t size) {
+void* TryAllocate(size_t size) noexcept {
   ++allocations;
-  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* Allocate(size_t size) {
+  if (void* p = TryAllocate(size)) return p;
   throw std::bad_alloc();
 }
 void* Allocate(size_t size, std::align_val_t alignment) {
@@ -25,6 +28,8 @@ void* Allocate(size_t size, std::align_val_t alignment) {
 
 void* operator new(size_t size) { return Allocate(size); }
 void* operator new[](size_t size) { return Allocate(size); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return TryAllocate(size); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return TryAllocate(size); }
 void* operator new(size_t size, std::align_val_t a) { return Allocate(size, a); }
 void* operator new[](size_t size, std::align_val_t a) { return Allocate(size, a); }
 void operator delete(void* p) noexcept { std::free(p); }

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "services/base/ply_file.h"
@@ -75,19 +76,33 @@ TEST(Mesh, RoundsItsSegmentsUp) {
 }
 
 TEST(Mesh, ReadsBackFromPly) {
-  const TriangleMesh one = MakeMesh(MakeShape({0.03, 0.05, 0.12}, 0.1, 1, {0.1, 0, 0.5}), 16);
-  TriangleMesh both = one;
-  Append(MakeMesh(MakeShape({1, 2, 3}, 0.1, 1), 8), both);
-  EXPECT_EQ(Edges(both).size(), 3 * both.triangles.size());  // none shared between the two
-  const std::string text = MeshToPly(both);
+  const std::vector<MeshPiece> pieces{
+      {MakeMesh(MakeShape({0.03, 0.05, 0.12}, 0.1, 1, {0.1, 0, 0.5}), 16), 1, 0},
+      {MakeMesh(MakeShape({1, 2, 3}, 0.1, 1), 8), 3, 2}};
+  const TriangleMesh &one = pieces[0].mesh, &other = pieces[1].mesh;
+  const std::string text = MeshToPly(pieces);
   const auto cloud = cloud::ParsePly(text);
   ASSERT_TRUE(cloud) << cloud.error().message;
-  ASSERT_EQ(cloud->points.size(), both.vertices_F.size());
-  for (size_t i = 0; i < both.vertices_F.size(); ++i) {
-    EXPECT_EQ(cloud->points[i], both.vertices_F[i].cast<float>());
+  std::vector<Vector3d> vertices = one.vertices_F;
+  vertices.insert(vertices.end(), other.vertices_F.begin(), other.vertices_F.end());
+  ASSERT_EQ(cloud->points.size(), vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    EXPECT_EQ(cloud->points[i], vertices[i].cast<float>());
   }
-  const auto lines = static_cast<size_t>(std::count(text.begin(), text.end(), '\n'));
-  EXPECT_EQ(lines, 9 + both.vertices_F.size() + both.triangles.size());
+  // The faces: corners of the file, then object and part.
+  std::istringstream faces(text.substr(text.find("end_header\n") + 11));
+  std::string line;
+  for (size_t i = 0; i < vertices.size(); ++i) std::getline(faces, line);
+  for (const MeshPiece& piece : pieces) {
+    const int first = &piece == pieces.data() ? 0 : static_cast<int>(one.vertices_F.size());
+    for (const auto& t : piece.mesh.triangles) {
+      std::array<int, 6> face;
+      for (int& number : face) ASSERT_TRUE(faces >> number);
+      EXPECT_EQ(face, (std::array<int, 6>{3, first + t[0], first + t[1], first + t[2], piece.object,
+                                          piece.part}));
+    }
+  }
+  EXPECT_FALSE(faces >> line);
 }
 
 }  // namespace

@@ -119,6 +119,10 @@ class OfflineLabelsTest : public ProgramTest {
                    0.0005);
 };
 
+TEST_F(OfflineLabelsTest, GivesTheSameBytesInEveryProcess) {
+  ExpectSameBytesTwice("--input " + Path("scene.pcd") + " --labels " + Path("labels.png"));
+}
+
 TEST_F(OfflineLabelsTest, GiveAResultForEachObjectAsOverTheBus) {
   ASSERT_EQ(Run("--input " + Path("scene.pcd") + " --labels " + Path("labels.png") + PlaneOption() +
                 " --json " + Path("out.json") + " --picture " + Path("out.png")),

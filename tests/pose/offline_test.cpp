@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class OfflineTest : public ProgramTest {
  protected:
@@ -88,6 +89,34 @@ TEST_F(OfflineTest, FitsInputsWithAndWithoutAPlane) {
   EXPECT_EQ(json::parse(Read("out.json"))[0]["method"], "multiscale");
   ASSERT_EQ(Run(input), 0) << error_;
   EXPECT_TRUE(json::parse(Read("out.json"))[0]["grasps"].empty());
+}
+
+// A can with a smaller one on top, which has parts, and one that is cut short, which is ambiguous.
+TEST_F(OfflineTest, GivesTheSameBytesInEveryProcess) {
+  std::vector<Eigen::Vector3f> bottle = can_.points_C, cut = box_.points_C;
+  const TableView neck =
+      ViewOnTable(MakeShape({0.012, 0.012, 0.03}, 0.1, 1, {0, 0, 0.15}), 500, 0.001);
+  bottle.insert(bottle.end(), neck.points_C.begin(), neck.points_C.end());
+  CutAway(0, 0.4, cut);
+  WriteCloud("bottle.xyz", bottle);
+  WriteCloud("box.xyz", box_.points_C);
+  WriteCloud("cut.xyz", cut);
+  WriteCloud("five.xyz", {box_.points_C.begin(), box_.points_C.begin() + 5});
+  Write("list.jsonl", ListLine("bottle.xyz", can_.table_C) + ListLine("box.xyz", box_.table_C) +
+                          ListLine("cut.xyz", box_.table_C) + ListLine("five.xyz", box_.table_C));
+  for (const std::string method : {"adaptive", "multiscale", "classic", "hierarchical"}) {
+    SCOPED_TRACE(method);
+    ExpectSameBytesTwice("--list " + Path("list.jsonl") + " --method " + method);
+    if (method != "adaptive") continue;
+    const json poses = json::parse(Read("first.json"));
+    EXPECT_GT(poses[0]["parts"].size(), 1u);
+    EXPECT_FALSE(poses[1]["grasps"].empty());
+    const std::string mesh = Read("first.ply");
+    for (const char* face_of : {" 1 0\n", " 1 1\n", " 1 2\n", " 2 0\n", " 3 0\n"}) {
+      EXPECT_THAT(mesh, HasSubstr(face_of));
+    }
+    EXPECT_THAT(mesh, Not(HasSubstr(" 4 0\n"))) << "did not converge";
+  }
 }
 
 TEST_F(OfflineTest, TellsWhyACloudWasNotFitted) {

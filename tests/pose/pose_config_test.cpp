@@ -50,6 +50,31 @@ TEST(PoseConfigFile, HasASectionForEveryMethod) {
   EXPECT_EQ(config->fit.multiscale.smooth_m, 0.03);
 }
 
+TEST(PoseConfigFile, BoundsTheShapesOfEveryMethod) {
+  const std::string common = "min_semi_axis_m = 0.007\nmin_epsilon = 0.2\nmax_epsilon = 1.5\n";
+  const std::string margin = common + "axis_margin_m = 0.02\n", taper = "max_taper = 0.1\n";
+  const auto config = Read("[adaptive]\n" + common + "[multiscale]\n" + margin + taper +
+                           "[classic]\n" + margin + taper + "[hierarchical]\n" + margin);
+  ASSERT_TRUE(config) << config.error().message;
+  const auto expect_common = [](const auto& c) {
+    EXPECT_EQ(c.min_semi_axis_m, 0.007);
+    EXPECT_EQ(c.min_epsilon, 0.2);
+    EXPECT_EQ(c.max_epsilon, 1.5);
+  };
+  const FitConfig& fit = config->fit;
+  expect_common(fit.adaptive), expect_common(fit.multiscale);
+  expect_common(fit.classic), expect_common(fit.hierarchical);
+  EXPECT_EQ(fit.multiscale.axis_margin_m, 0.02);
+  EXPECT_EQ(fit.classic.axis_margin_m, 0.02);
+  EXPECT_EQ(fit.hierarchical.axis_margin_m, 0.02);
+  EXPECT_EQ(fit.multiscale.max_taper, 0.1);
+  EXPECT_EQ(fit.classic.max_taper, 0.1);
+  for (const char* text : {"[adaptive]\nmax_taper = 0.1", "[hierarchical]\nmax_taper = 0.1",
+                           "[classic]\nmin_epsilon = 0.01", "[multiscale]\nmax_epsilon = 3"}) {
+    EXPECT_FALSE(Read(text)) << text;
+  }
+}
+
 TEST(PoseConfigFile, RefusesWhatItDoesNotKnow) {
   for (const char* text : {"methud = 'adaptive'", "[gripper]\nwidth = 1",
                            "[multiscale]\nvoxels_m = [0.0]", "[adaptive]\nfine_points = -1",

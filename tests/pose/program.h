@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace beckon::pose {
@@ -45,6 +46,30 @@ class ProgramTest : public ::testing::Test {
     EXPECT_EQ(Run(arguments), 2) << arguments;
     EXPECT_THAT(error_, ::testing::HasSubstr(says));
     EXPECT_EQ(std::count(error_.begin(), error_.end(), '\n'), 1) << error_;
+  }
+
+  // The lines of a JSON file that tell no time.
+  std::string ReadWithoutTimes(const std::string& name) const {
+    std::istringstream text(Read(name));
+    std::string lines;
+    for (std::string line; std::getline(text, line);) {
+      if (line.find("\"time_ms\"") == std::string::npos) lines += line + '\n';
+    }
+    return lines;
+  }
+  // Runs it in two processes; all that it writes is the same but for times.
+  void ExpectSameBytesTwice(const std::string& arguments) {
+    for (const std::string run : {"first", "second"}) {
+      ASSERT_EQ(Run(arguments + " --json " + Path(run + ".json") + " --picture " +
+                    Path(run + ".png") + " --mesh " + Path(run + ".ply")),
+                0)
+          << error_;
+    }
+    EXPECT_FALSE(ReadWithoutTimes("first.json").empty());
+    EXPECT_EQ(ReadWithoutTimes("first.json"), ReadWithoutTimes("second.json"));
+    EXPECT_LT(ReadWithoutTimes("first.json").size(), Read("first.json").size());
+    EXPECT_TRUE(Read("first.png") == Read("second.png"));
+    EXPECT_TRUE(Read("first.ply") == Read("second.ply"));
   }
 
   std::filesystem::path dir_;

@@ -83,6 +83,9 @@ TEST(SceneEstimatorTest, ReusesWhatDidNotChangeAndRefitsWhatDid) {
   scene.X_WC.translation().z() += 0.01;
   estimator.Estimate(scene);
   EXPECT_EQ(estimator.counts().fitted, 6);
+  scene.has_table = false;
+  EXPECT_TRUE(estimator.Estimate(scene).poses[0].grasps.empty());
+  EXPECT_EQ(estimator.counts().fitted, 7);
 }
 
 TEST(SceneEstimatorTest, GraspsAnewWhenANeighbourComes) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "services/pose/fit_stage.h"
 #include "services/pose/levenberg_marquardt.h"
@@ -34,18 +35,26 @@ TEST(Gauge, IsTheInsideOutsideFunctionToThePowerOfHalfEpsilon) {
   EXPECT_NEAR(Gauge(s, p), std::pow(F, 0.35), 1e-12);
 }
 
-TEST(Gauge, IsFiniteForEveryExponentAndPoint) {
+// Calls check(shape) for shapes of all exponents.
+template <typename Check>
+void ForAllExponents(const Vector3d& semi_axes, const Check& check) {
   for (double e1 : kExponents) {
     for (double e2 : kExponents) {
-      const Superquadric s = MakeShape({0.01, 0.05, 0.12}, e1, e2);
-      for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0.01, 0, 0), Vector3d(0, 0, 1e-9),
-                                Vector3d(1e3, -1e3, 1e3), Vector3d(1e-12, 1e-12, 1e-12)}) {
-        const GaugeDerivatives d = DifferentiateGauge(s, p);
-        EXPECT_TRUE(std::isfinite(d.log_g) && d.point.allFinite() && d.epsilon.allFinite());
-        EXPECT_TRUE(d.log_semi_axes.allFinite() && d.taper.allFinite());
-      }
+      SCOPED_TRACE("e " + std::to_string(e1) + ' ' + std::to_string(e2));
+      check(MakeShape(semi_axes, e1, e2));
     }
   }
+}
+
+TEST(Gauge, IsFiniteForEveryExponentAndPoint) {
+  ForAllExponents({0.01, 0.05, 0.12}, [](const Superquadric& s) {
+    for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0.01, 0, 0), Vector3d(0, 0, 1e-9),
+                              Vector3d(1e3, -1e3, 1e3), Vector3d(1e-12, 1e-12, 1e-12)}) {
+      const GaugeDerivatives d = DifferentiateGauge(s, p);
+      EXPECT_TRUE(std::isfinite(d.log_g) && d.point.allFinite() && d.epsilon.allFinite());
+      EXPECT_TRUE(d.log_semi_axes.allFinite() && d.taper.allFinite());
+    }
+  });
 }
 
 // The inside-outside function as Solina & Bajcsy write it, in arithmetic wide enough for its
@@ -77,19 +86,21 @@ class WidePoints {
   std::uniform_real_distribution<double> exponent_{-9, 3};
 };
 
-TEST(Gauge, AgreesWithTheInsideOutsideFunctionInWideArithmetic) {
+// Calls check(shape, point) for shapes of all exponents and 50 points each.
+template <typename Check>
+void ForWidePoints(const Vector3d& semi_axes, const Check& check) {
   WidePoints points;
-  for (double e1 : kExponents) {
-    for (double e2 : kExponents) {
-      const Superquadric s = MakeShape({0.01, 0.05, 0.12}, e1, e2);
-      for (int i = 0; i < 50; ++i) {
-        const Vector3d p = points.Next(s);
-        const auto expected = static_cast<double>(WideLogGauge(s, {p[0], p[1], p[2]}));
-        EXPECT_NEAR(DifferentiateGauge(s, p).log_g, expected, 1e-13 * (1 + std::abs(expected)))
-            << "e " << e1 << ' ' << e2 << " at " << p.transpose();
-      }
-    }
-  }
+  ForAllExponents(semi_axes, [&](const Superquadric& s) {
+    for (int i = 0; i < 50; ++i) check(s, points.Next(s));
+  });
+}
+
+TEST(Gauge, AgreesWithTheInsideOutsideFunctionInWideArithmetic) {
+  ForWidePoints({0.01, 0.05, 0.12}, [](const Superquadric& s, const Vector3d& p) {
+    const auto expected = static_cast<double>(WideLogGauge(s, {p[0], p[1], p[2]}));
+    EXPECT_NEAR(DifferentiateGauge(s, p).log_g, expected, 1e-13 * (1 + std::abs(expected)))
+        << "at " << p.transpose();
+  });
 }
 
 // Central differences in wide arithmetic, with a step of a millionth of each coordinate.
@@ -106,39 +117,28 @@ Vector3d WideGradient(const Superquadric& s, const Vector3d& p) {
 }
 
 TEST(Gauge, GradientKeepsTheDigitsOfItsSmallComponents) {
-  WidePoints points;
-  for (double e1 : kExponents) {
-    for (double e2 : kExponents) {
-      const Superquadric s = MakeShape({0.01, 0.05, 0.12}, e1, e2);
-      for (int i = 0; i < 50; ++i) {
-        const Vector3d p = points.Next(s);
-        const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
-        for (int k = 0; k < 3; ++k) {
-          // What the differences themselves can tell: log g to 1e-18 over a step of 1e-6 p.
-          const double resolution = 1e-10 / std::abs(p[k]);
-          EXPECT_NEAR(gradient[k], expected[k], 1e-6 * std::abs(expected[k]) + resolution)
-              << "e " << e1 << ' ' << e2 << " at " << p.transpose();
-        }
-      }
+  ForWidePoints({0.01, 0.05, 0.12}, [](const Superquadric& s, const Vector3d& p) {
+    const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
+    for (int k = 0; k < 3; ++k) {
+      // What the differences themselves can tell: log g to 1e-18 over a step of 1e-6 p.
+      const double resolution = 1e-10 / std::abs(p[k]);
+      EXPECT_NEAR(gradient[k], expected[k], 1e-6 * std::abs(expected[k]) + resolution)
+          << "at " << p.transpose();
     }
-  }
+  });
 }
 
 TEST(Gauge, GradientOfATaperedShapeAgreesWithFiniteDifferences) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (double e1 : kExponents) {
-    for (double e2 : kExponents) {
-      Superquadric s = MakeShape({0.03, 0.05, 0.12}, e1, e2);
-      s.taper = {0.6, -0.4};
-      for (int i = 0; i < 20; ++i) {
-        const Vector3d p = Vector3d(unit(engine), unit(engine), unit(engine)) * 0.12;
-        const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
-        EXPECT_LT((gradient - expected).norm(), 1e-6 * expected.norm())
-            << "e " << e1 << ' ' << e2 << " at " << p.transpose();
-      }
+  ForAllExponents({0.03, 0.05, 0.12}, [&](Superquadric s) {
+    s.taper = {0.6, -0.4};
+    for (int i = 0; i < 20; ++i) {
+      const Vector3d p = Vector3d(unit(engine), unit(engine), unit(engine)) * 0.12;
+      const Vector3d gradient = DifferentiateGauge(s, p).point, expected = WideGradient(s, p);
+      EXPECT_LT((gradient - expected).norm(), 1e-6 * expected.norm()) << "at " << p.transpose();
     }
-  }
+  });
 }
 
 TEST(Gauge, SlopeAcrossAPlaneOfSymmetryIsZero) {
@@ -206,18 +206,12 @@ TEST(Support, TouchesTheSurfaceAndBoundsIt) {
 }
 
 TEST(Support, IsExactForAllExponentsAndDirections) {
-  WidePoints directions;
-  for (double e1 : kExponents) {
-    for (double e2 : kExponents) {
-      const Superquadric s = MakeShape({0.03, 0.05, 0.08}, e1, e2);
-      for (int i = 0; i < 50; ++i) {
-        const Vector3d n = directions.Next(s).normalized();
-        const SupportDerivatives d = DifferentiateSupport(s, n);
-        EXPECT_NEAR(n.dot(d.point), d.h, 1e-14);
-        EXPECT_NEAR(Gauge(s, d.point), 1, 1e-8) << "e " << e1 << ' ' << e2;
-      }
-    }
-  }
+  ForWidePoints({0.03, 0.05, 0.08}, [](const Superquadric& s, const Vector3d& direction) {
+    const Vector3d n = direction.normalized();
+    const SupportDerivatives d = DifferentiateSupport(s, n);
+    EXPECT_NEAR(n.dot(d.point), d.h, 1e-14);
+    EXPECT_NEAR(Gauge(s, d.point), 1, 1e-8);
+  });
 }
 
 TEST(Support, AlongAnAxisIsTheMiddleOfTheFace) {
