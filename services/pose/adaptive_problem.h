@@ -1,6 +1,7 @@
 // What the adaptive fit minimises.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -15,9 +16,10 @@ namespace beckon::pose {
 struct TableTopScene {
   std::optional<Plane> table;  // normal up
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  double top_m = 0;  // the highest point that is seen, above the table
   double log_axes =
       0;  // sum of the log semi-axes of what is seen: the prior on the volume is 0 there
+  // Height above the table of the highest point that is seen; infinite where that says nothing.
+  double top_m = std::numeric_limits<double>::infinity();
 };
 
 /// A side on which the object goes on behind a plane through the viewpoint, nobody knows how far.

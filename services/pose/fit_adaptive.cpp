@@ -226,7 +226,7 @@ std::vector<Candidate> RefineBest(Fitter& fitter, const std::vector<Candidate>& 
 ParameterMatrix InformationOf(const Candidate& c, size_t n_points, const AdaptiveConfig& config) {
   const double unexplained = 1 + c.cost.outline / config.outline_clean_m2;
   const double enough = std::min(static_cast<double>(n_points) / config.fine_points, 1.0);
-  const double witnesses = config.witnesses * enough * enough * enough;
+  const double witnesses = config.witnesses * std::pow(enough, 4);
   const double variance = unexplained * unexplained * std::max(c.cost.points, kLeastVariance_m2);
   return ParameterMatrix(c.result.at_minimum.hessian.selfadjointView<Eigen::Lower>()) *
          (witnesses / variance);
@@ -272,8 +272,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
                           const AdaptiveConfig& config) {
   const SpreadPoints spread = SpreadEvenly(points_F, config.fine_points);
   const std::vector<Superquadric> starts = Starts(spread.points, table_F);
-  const TableTopScene scene{table_F, viewpoint_F, SeenTop(spread, table_F),
-                            starts[0].semi_axes.array().log().sum()};
+  const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum(),
+                            SeenTop(spread, table_F)};
   const Silhouette silhouette =
       TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});

@@ -113,7 +113,7 @@ std::vector<Superquadric> Refit(const PartModel& model, const PartsView& view,
   };
   std::vector<Superquadric> refitted = model.parts;
   AdaptiveConfig loose = fit;
-  loose.support_weight = 0;
+  loose.support_weight = loose.proportion_prior_m2 = 0;  // handles and necks are thin
   for (size_t part = 0; part < refitted.size(); ++part) {
     Superquadric& shape = refitted[part];
     // Of the main body's many points half will do.
@@ -134,7 +134,7 @@ Superquadric FitLoosePart(const PointBlock& points_F, const PartsView& view,
                           const Superquadric& start, const AdaptiveConfig& fit, int iterations,
                           double min_semi_axis_m) {
   AdaptiveConfig loose = fit;
-  loose.support_weight = 0;
+  loose.support_weight = loose.proportion_prior_m2 = 0;  // handles and necks are thin
   PointBlock none;
   const AdaptiveProblem problem(points_F, none, view.scene, UprightAxis(start, view.scene.table),
                                 loose);

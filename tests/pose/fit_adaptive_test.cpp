@@ -87,6 +87,41 @@ TEST(AdaptiveFit, CompletesWhatTheRimTellsIsHidden) {
   }
 }
 
+// Height above the table of the highest point.
+double TopOf(const FitResult& result, const Plane& table_C) {
+  double top_m = 0;
+  for (const auto& p : SampleSurface(result.shape, 2000)) {
+    top_m = std::max(top_m, table_C.Distance(p));
+  }
+  return top_m;
+}
+
+TEST(AdaptiveFit, EndsWhereTheRimOfAnOpenBowlIsSeen) {
+  FitConfig config;
+  config.adaptive.cut_hypotheses = false;
+  for (const double height_m : {0.05, 0.07, 0.08}) {
+    const TableView bowl = BowlOnTable(0.08, height_m, 0.001);
+    const FitResult result = Fit({bowl.points_C, bowl.table_C}, config);
+    EXPECT_LT(TopOf(result, bowl.table_C), height_m + 0.035);
+    EXPECT_LT(OffBy(result, bowl.shape_C), 0.025);
+  }
+}
+
+TEST(AdaptiveFit, TakesNoThingForASheetOfWhichOneFaceIsSeen) {
+  // Straight from the front, the depth is hidden.
+  FitConfig config;
+  config.adaptive.cut_hypotheses = false;
+  std::vector<Vector3f> face;
+  std::mt19937 engine(1);
+  std::normal_distribution<float> noise(0, 0.001f);
+  for (float x = -0.06f; x <= 0.06f; x += 0.0015f) {
+    for (float y = -0.09f; y <= 0.09f; y += 0.0015f) face.emplace_back(x, y, 0.8f + noise(engine));
+  }
+  const Plane table{-Vector3d::UnitY(), 0.09};
+  const FitResult result = Fit({face, table}, config);
+  EXPECT_GT(result.shape.semi_axes.minCoeff(), 0.01);
+}
+
 TEST(AdaptiveFit, IsLessSureAlongTheLineOfSight) {
   // Without a table, seen from the front: where the back is, only the sides tell.
   for (const auto& [e1, turn] : {std::pair(0.1, 0.2), {0.1, 0.3}, {1.0, 0.2}, {1.0, 0.3}}) {

@@ -136,6 +136,34 @@ TableView PixelViewOnTable(const Superquadric& shape_W, double sigma_m, unsigned
   return view;
 }
 
+TableView BowlOnTable(double radius_m, double height_m, double sigma_m, unsigned seed) {
+  const Pose X_WC = CameraAtTable(), X_CW = X_WC.inverse();
+  TableView view;
+  view.shape_C = MakeShape({radius_m, radius_m, 0.5 * height_m}, 0.1, 0.1, {0, 0, 0.5 * height_m});
+  view.shape_C.X_FO = X_CW * view.shape_C.X_FO;
+  view.table_C = {X_CW.linear().col(2), X_WC.translation().z()};
+  const Intrinsics intrinsics;
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> noise(0, 1);
+  const Eigen::Vector3d centre_C = X_CW * Eigen::Vector3d(0, 0, radius_m);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const Eigen::Vector3d ray = intrinsics.Unproject(u, v, 1);
+      const double middle_m = ray.dot(centre_C) / ray.squaredNorm();
+      const double half2 =
+          (radius_m * radius_m - (middle_m * ray - centre_C).squaredNorm()) / ray.squaredNorm();
+      if (half2 < 0) continue;
+      // The outside of the near wall, or over the rim the inside of the far one.
+      for (const double depth_m : {middle_m - std::sqrt(half2), middle_m + std::sqrt(half2)}) {
+        if (view.table_C.Distance(depth_m * ray) > height_m) continue;
+        view.points_C.push_back(((depth_m + sigma_m * noise(engine)) * ray).cast<float>());
+        break;
+      }
+    }
+  }
+  return view;
+}
+
 CutLine CutAway(double angle_rad, double share, std::vector<Eigen::Vector3f>& points_C) {
   const Eigen::Vector2d normal(std::cos(angle_rad), std::sin(angle_rad));
   const auto along = [&](const Eigen::Vector3f& p) {

@@ -31,6 +31,10 @@ TableView ViewOnTable(const Superquadric& shape_W, int count, double sigma_m = 0
 /// What a camera of 640 x 480 pixels sees from there: a point a pixel, with noise along the rays.
 TableView PixelViewOnTable(const Superquadric& shape_W, double sigma_m = 0, unsigned seed = 1);
 
+/// The same of an open bowl: a sphere of that radius on the table, hollow, without what is above
+/// `height_m`. Its shape_C is the box around it.
+TableView BowlOnTable(double radius_m, double height_m, double sigma_m = 0, unsigned seed = 1);
+
 /// A side of a view that is cut away: of the image plane, where normal.(x/z, y/z) > offset.
 struct CutLine {
   Eigen::Vector2d normal;  // unit
