@@ -31,14 +31,14 @@ struct AdaptiveConfig {
   double volume_prior_m2 = 5e-7;
   // Times the squared deviations of the log semi-axes from their mean: of two shapes that fit as
   // well, the one of more even proportions. Few objects are like a sheet.
-  double proportion_prior_m2 = 3e-7;
+  double proportion_prior_m2 = 1.2e-7;
   // What the table adds.
   double support_weight = 1.0;     // the lowest point of the shape lies on the table
   double support_noise_m = 0.003;  // scale of its Cauchy weight
   double tilt_weight = 5e-5;       // m^2/rad^2: one axis is vertical
   // Of the squared height by which the shape rises more than top_slack_m above what is seen: who
   // looks down on a thing sees its top, unless that is cut off.
-  double top_weight = 0.003;
+  double top_weight = 0.002;
   double top_slack_m = 0.005;
   // Where the shape should be seen this much lower than it is, it may stand on another: ambiguous.
   double unseen_foot_m = 0.03;

@@ -102,8 +102,8 @@ TEST(AdaptiveFit, EndsWhereTheRimOfAnOpenBowlIsSeen) {
   for (const double height_m : {0.05, 0.07, 0.08}) {
     const TableView bowl = BowlOnTable(0.08, height_m, 0.001);
     const FitResult result = Fit({bowl.points_C, bowl.table_C}, config);
-    EXPECT_LT(TopOf(result, bowl.table_C), height_m + 0.035);
-    EXPECT_LT(OffBy(result, bowl.shape_C), 0.025);
+    EXPECT_LT(TopOf(result, bowl.table_C), height_m + 0.05);
+    EXPECT_LT(OffBy(result, bowl.shape_C), 0.03);
   }
 }
 
