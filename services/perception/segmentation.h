@@ -10,12 +10,13 @@
 
 #include "services/base/geometry.h"
 #include "services/base/rgbd.h"
+#include "services/perception/sensor_noise.h"
 
 namespace beckon::perception {
 
-enum class SegmentationMethod { kReference };
+enum class SegmentationMethod { kFast, kReference };
 
-/// "reference".
+/// "fast", "reference".
 const char* Name(SegmentationMethod method);
 /// The method of a name; fails for one that does not exist.
 Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
@@ -23,7 +24,8 @@ Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
 /// Section [segmentation] of the configuration. Defaults after the dissertation's chapter 3, but
 /// for min_height_m (there 0.02): 0.01 keeps flat objects and scored better on real scenes.
 struct SegmentationConfig {
-  SegmentationMethod method = SegmentationMethod::kReference;
+  SegmentationMethod method = SegmentationMethod::kFast;
+  SensorNoise sensor;
   double min_range_m = 0.5;  // depth that is used, along the optical axis
   double max_range_m = 3.0;
   double voxel_m = 0.002;          // edge length of the voxels
