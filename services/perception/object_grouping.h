@@ -44,6 +44,6 @@ PatchGroups GroupPatches(const PatchScene& scene);
 /// Joins groups of less than `kFragment_m2` to the one they share the longest border with.
 void JoinFragments(const PatchScene& scene, PatchGroups& groups);
 
-inline constexpr float kFragment_m2 = 0.0010f;
+inline constexpr float kFragment_m2 = 0.0030f;
 
 }  // namespace beckon::perception

@@ -26,6 +26,7 @@ Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
 struct SegmentationConfig {
   SegmentationMethod method = SegmentationMethod::kFast;
   SensorNoise sensor;
+  double fast_min_range_m = 0.3;
   double min_range_m = 0.5;  // depth that is used, along the optical axis
   double max_range_m = 3.0;
   double voxel_m = 0.002;          // edge length of the voxels

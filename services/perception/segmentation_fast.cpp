@@ -52,7 +52,7 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   };
   Segmentation result;
   const DepthGrid grid =
-      MakeDepthGrid(image, config.min_range_m, config.max_range_m, config.sensor);
+      MakeDepthGrid(image, config.fast_min_range_m, config.max_range_m, config.sensor);
   result.n_points = grid.n_pixels;
   finished("grid");
   const TablePlane table = FindTablePlane(grid, config);
