@@ -69,8 +69,11 @@ PatchGroups GroupPatches(const PatchScene& scene) {
   for (const PatchEdge& edge : scene.edges) {
     evidence.push_back(LocalEvidence(scene.patches, neighbours, edge));
   }
-  PatchGroups groups(
-      ClusterSignedGraph(static_cast<int>(scene.patches.patches.size()), evidence));
+  std::vector<float> sizes;
+  for (const Patch& patch : scene.patches.patches) {
+    sizes.push_back(static_cast<float>(patch.n_cells));
+  }
+  PatchGroups groups(ClusterSignedGraph(sizes, evidence));
   JoinInsides(scene, groups);
   JoinAcrossOccluders(scene, groups);
   JoinFragments(scene, groups);

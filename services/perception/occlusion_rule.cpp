@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "services/perception/surface_faces.h"
 
@@ -16,6 +18,8 @@ constexpr float kOnSurface = 1.5f;     // standard deviations of a reading, root
 constexpr float kNearer = 4;           // standard deviations that an occluder is in front
 constexpr float kLargest_m = 0.40f;    // an object
 constexpr float kLeastOverlap = 0.5f;  // of the smaller part, across the gap
+constexpr int kLeastHidden = 2;         // cells along which an occluder borders what it hides
+constexpr size_t kFewestRound = 3;      // patches of a part of a cylinder
 constexpr int kLines = 5;              // of sight across the gap
 constexpr float kLeastFilled = 0.7f;   // of the gap by the occluder, where there is depth
 
@@ -189,24 +193,48 @@ bool OneCylinder(const PatchScene& scene, const std::vector<int>& a, const std::
   return std::max(u.high, v.high) - std::min(u.low, v.low) < kLargest_m;
 }
 
+/// Pairs of groups that are both partly hidden by the same third one, ordered.
+std::set<std::pair<int, int>> PairsBehindOneOccluder(const PatchScene& scene,
+                                                     const PatchGroups& groups) {
+  std::map<std::pair<int, int>, int> border;  // occluder and hidden, cells
+  for (const PatchEdge& edge : scene.edges) {
+    const int a = groups.Of(edge.a), b = groups.Of(edge.b);
+    if (a == b) continue;
+    if (edge.n_a_before > 0) border[{a, b}] += edge.n_a_before;
+    if (edge.n_b_before > 0) border[{b, a}] += edge.n_b_before;
+  }
+  std::set<std::pair<int, int>> pairs;
+  for (auto first = border.begin(); first != border.end(); ++first) {
+    if (first->second < kLeastHidden) continue;
+    for (auto second = std::next(first);
+         second != border.end() && second->first.first == first->first.first; ++second) {
+      if (second->second < kLeastHidden) continue;
+      pairs.insert({first->first.second, second->first.second});
+    }
+  }
+  return pairs;
+}
+
 }  // namespace
 
 void JoinAcrossOccluders(const PatchScene& scene, PatchGroups& groups) {
   const GapCheck gap(scene, groups);
-  const std::vector<Face> faces = FindFaces(scene, groups);
-  for (size_t i = 0; i < faces.size(); ++i) {
-    for (size_t j = i + 1; j < faces.size(); ++j) {
-      const int a = groups.Of(faces[i].patches.front()), b = groups.Of(faces[j].patches.front());
-      if (a == b || !OnePlane(scene, faces[i], faces[j])) continue;
-      if (gap.Filled(faces[i].patches, faces[j].patches)) groups.Join(a, b);
-    }
-  }
-  for (int a = 0; a < groups.Count(); ++a) {
-    for (int b = a + 1; b < groups.Count(); ++b) {
-      const auto &p = groups.Members(a), &q = groups.Members(b);
-      if (p.size() < 3 || q.size() < 3 || !OneCylinder(scene, p, q)) continue;
-      if (gap.Filled(p, q)) groups.Join(a, b);
-    }
+  std::vector<std::vector<Face>> faces(groups.Count());
+  for (Face& face : FindFaces(scene, groups)) faces[face.group].push_back(std::move(face));
+  // The groups as they were: joining must not make new hypotheses on the way.
+  std::vector<std::vector<int>> members;
+  for (int g = 0; g < groups.Count(); ++g) members.push_back(groups.Members(g));
+  for (const auto& [a, b] : PairsBehindOneOccluder(scene, groups)) {
+    const int now_a = groups.Of(members[a].front()), now_b = groups.Of(members[b].front());
+    if (now_a == now_b) continue;
+    bool one = std::any_of(faces[a].begin(), faces[a].end(), [&](const Face& f) {
+      return std::any_of(faces[b].begin(), faces[b].end(), [&](const Face& g) {
+        return OnePlane(scene, f, g) && gap.Filled(f.patches, g.patches);
+      });
+    });
+    one = one || (members[a].size() >= kFewestRound && members[b].size() >= kFewestRound &&
+                  OneCylinder(scene, members[a], members[b]) && gap.Filled(members[a], members[b]));
+    if (one) groups.Join(now_a, now_b);
   }
 }
 

@@ -8,6 +8,7 @@ namespace beckon::perception {
 namespace {
 
 constexpr float kHardlyTurns = 0.97f;  // cosine of 14 degrees
+constexpr int kShadow = 12;  // cells without depth between an occluder and what it hides
 constexpr float kMeets = 4;  // standard deviations between surfaces that meet
 
 /// Collects the edges of each patch in a short list of its own.
@@ -38,47 +39,73 @@ class EdgeCollector {
   std::vector<std::vector<PatchEdge>> of_patch_;
 };
 
-}  // namespace
+/// Walks from cell to cell and counts what it passes into the edges.
+class BorderCounter {
+ public:
+  BorderCounter(const DepthGrid& grid, const SurfaceCells& cells, const SurfacePatches& patches,
+                const SensorNoise& sensor)
+      : grid_(grid), cells_(cells), patches_(patches), noise_(sensor),
+        edges_(patches.patches.size()) {}
 
-std::vector<PatchEdge> FindEdges(const DepthGrid& grid, const SurfaceCells& cells,
-                                 const SurfacePatches& patches, const SensorNoise& sensor) {
-  const InverseDepthNoise noise(sensor);
-  EdgeCollector edges(patches.patches.size());
-  auto look = [&](int u, int v, int u2, int v2) {
-    const size_t i = grid.Index(u, v), j = grid.Index(u2, v2);
-    int a = patches.patch_of_cell[i], b = patches.patch_of_cell[j];
-    if (b < 0 || a == b) return;
-    const float w_i = cells.inverse_depth[i], w_j = cells.inverse_depth[j];
-    const float off_a = std::abs(
-        w_j - patches.patches[a].InverseDepth(grid.Ray(static_cast<float>(u2), static_cast<float>(v2))));
-    const float off_b = std::abs(
-        w_i - patches.patches[b].InverseDepth(grid.Ray(static_cast<float>(u), static_cast<float>(v))));
-    const bool touching = std::min(off_a, off_b) < kMeets * noise(std::max(w_i, w_j));
-    const bool i_before = w_i > w_j;
-    PatchEdge& edge = edges.At(std::min(a, b), std::max(a, b));
+  /// From a cell of a patch to the next cell with depth in the direction (du, dv).
+  void Look(int u, int v, int du, int dv) {
+    const int a = patches_.patch_of_cell[grid_.Index(u, v)];
+    for (int k = 1; k <= kShadow; ++k) {
+      const int x = u + k * du, y = v + k * dv;
+      if (x >= cells_.part.right || y >= cells_.part.bottom) return;
+      const size_t i = grid_.Index(x, y);
+      if (grid_.inverse_depth[i] <= 0) continue;
+      const int b = patches_.patch_of_cell[i];
+      if (b >= 0 && b != a) Count(u, v, x, y, k <= 2);
+      return;
+    }
+  }
+
+  std::vector<PatchEdge> Sorted() { return edges_.Sorted(); }
+
+ private:
+  void Count(int u, int v, int x, int y, bool near) {
+    const size_t i = grid_.Index(u, v), j = grid_.Index(x, y);
+    const int a = patches_.patch_of_cell[i], b = patches_.patch_of_cell[j];
+    const float w_i = cells_.inverse_depth[i], w_j = cells_.inverse_depth[j];
+    const float off_a = std::abs(w_j - Predict(a, x, y)), off_b = std::abs(w_i - Predict(b, u, v));
+    const bool touching = std::min(off_a, off_b) < kMeets * noise_(std::max(w_i, w_j));
+    if (touching && !near) return;
+    PatchEdge& edge = edges_.At(std::min(a, b), std::max(a, b));
     if (touching) {
       ++edge.n_touching;
-    } else if ((a < b) == i_before) {
+    } else if ((a < b) == (w_i > w_j)) {
       ++edge.n_a_before;
     } else {
       ++edge.n_b_before;
     }
-  };
-  const CellRectangle& part = cells.part;
-  for (int v = part.top; v < part.bottom; ++v) {
-    for (int u = part.left; u < part.right; ++u) {
+  }
+
+  float Predict(int patch, int u, int v) const {
+    return patches_.patches[patch].InverseDepth(
+        grid_.Ray(static_cast<float>(u), static_cast<float>(v)));
+  }
+
+  const DepthGrid& grid_;
+  const SurfaceCells& cells_;
+  const SurfacePatches& patches_;
+  InverseDepthNoise noise_;
+  EdgeCollector edges_;
+};
+
+}  // namespace
+
+std::vector<PatchEdge> FindEdges(const DepthGrid& grid, const SurfaceCells& cells,
+                                 const SurfacePatches& patches, const SensorNoise& sensor) {
+  BorderCounter counter(grid, cells, patches, sensor);
+  for (int v = cells.part.top; v < cells.part.bottom; ++v) {
+    for (int u = cells.part.left; u < cells.part.right; ++u) {
       if (patches.patch_of_cell[grid.Index(u, v)] < 0) continue;
-      if (u + 1 < part.right) {
-        const int step = grid.inverse_depth[grid.Index(u + 1, v)] > 0 ? 1 : 2;
-        if (u + step < part.right) look(u, v, u + step, v);
-      }
-      if (v + 1 < part.bottom) {
-        const int step = grid.inverse_depth[grid.Index(u, v + 1)] > 0 ? 1 : 2;
-        if (v + step < part.bottom) look(u, v, u, v + step);
-      }
+      counter.Look(u, v, 1, 0);
+      counter.Look(u, v, 0, 1);
     }
   }
-  return edges.Sorted();
+  return counter.Sorted();
 }
 
 void SteadyNormals(const std::vector<PatchEdge>& edges, SurfacePatches& patches) {

@@ -15,7 +15,8 @@ struct PatchEdge {
   int n_b_before = 0;
 };
 
-/// Edges ordered by (a, b). Cells count as neighbours across one cell without depth.
+/// Edges ordered by (a, b). Surfaces touch across one cell without depth at most; one lies before
+/// the other also across the shadow that a projector leaves beside it.
 std::vector<PatchEdge> FindEdges(const DepthGrid& grid, const SurfaceCells& cells,
                                  const SurfacePatches& patches, const SensorNoise& sensor);
 

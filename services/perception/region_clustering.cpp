@@ -2,17 +2,22 @@
 #include "services/perception/region_clustering.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 namespace beckon::perception {
 namespace {
 
+// Evidence that a border must show for each cell of the smaller group's width: faces of one object
+// meet along an edge as long as they are wide, objects that happen to touch often do not.
+constexpr float kShortBorder = 0.08f;
+
 class Agglomeration {
  public:
-  Agglomeration(int n_nodes, std::span<const SignedEdge> edges)
-      : edges_(edges.begin(), edges.end()), version_(edges.size(), 0), edges_of_(n_nodes),
-        parent_(n_nodes) {
-    for (int i = 0; i < n_nodes; ++i) parent_[i] = i;
+  Agglomeration(std::span<const float> sizes, std::span<const SignedEdge> edges)
+      : edges_(edges.begin(), edges.end()), version_(edges.size(), 0), edges_of_(sizes.size()),
+        parent_(sizes.size()), size_(sizes.begin(), sizes.end()) {
+    for (size_t i = 0; i < sizes.size(); ++i) parent_[i] = static_cast<int>(i);
     for (size_t e = 0; e < edges_.size(); ++e) {
       edges_[e].evidence *= edges_[e].length;  // a sum from here on
       edges_of_[edges_[e].a].push_back(static_cast<int>(e));
@@ -25,7 +30,13 @@ class Agglomeration {
     while (!heap_.empty()) {
       const Entry top = heap_.top();
       heap_.pop();
-      if (top.version == version_[top.edge]) Merge(top.edge);
+      if (top.version != version_[top.edge]) continue;
+      const float mean = Mean(edges_[top.edge]);  // the groups may have grown
+      if (mean < top.mean) {
+        if (mean > 0) heap_.push({mean, top.edge, top.version});
+      } else {
+        Merge(top.edge);
+      }
     }
   }
 
@@ -57,9 +68,15 @@ class Agglomeration {
 
   void Push(int e) {
     const SignedEdge& edge = edges_[e];
-    if (edge.length > 0 && edge.evidence > 0) {
-      heap_.push({edge.evidence / edge.length, e, version_[e]});
-    }
+    const float mean = Mean(edge);
+    if (mean > 0) heap_.push({mean, e, version_[e]});
+  }
+
+  /// Of the evidence, less what a border must show that is short for the smaller group's size.
+  float Mean(const SignedEdge& edge) const {
+    if (edge.length <= 0) return 0;
+    const float width = std::sqrt(std::min(size_[edge.a], size_[edge.b]));
+    return (edge.evidence - kShortBorder * width) / edge.length;
   }
 
   /// Joins the ends of an edge; the one with fewer edges is taken into the other.
@@ -67,6 +84,7 @@ class Agglomeration {
     int keep = edges_[e].a, gone = edges_[e].b;
     if (edges_of_[keep].size() < edges_of_[gone].size()) std::swap(keep, gone);
     parent_[gone] = keep;
+    size_[keep] += size_[gone];
     version_[e] = -1;
     std::erase(edges_of_[keep], e);
     for (int moved : edges_of_[gone]) {
@@ -101,13 +119,15 @@ class Agglomeration {
   std::vector<int> version_;  // of each edge; -1 = gone
   std::vector<std::vector<int>> edges_of_;
   std::vector<int> parent_;
+  std::vector<float> size_;
   std::priority_queue<Entry> heap_;
 };
 
 }  // namespace
 
-std::vector<int> ClusterSignedGraph(int n_nodes, std::span<const SignedEdge> edges) {
-  Agglomeration agglomeration(n_nodes, edges);
+std::vector<int> ClusterSignedGraph(std::span<const float> sizes,
+                                    std::span<const SignedEdge> edges) {
+  Agglomeration agglomeration(sizes, edges);
   agglomeration.Run();
   return agglomeration.Groups();
 }

@@ -19,6 +19,7 @@ struct SignedEdge {
 /// rest of the border (average linkage on signed graphs: Bailoni et al., "GASP, a Generalized
 /// Framework for Agglomerative Clustering of Signed Graphs", 2022). Ties go to the edge that comes
 /// first. Returns the group of each node, numbered from 0 in order of their first nodes.
-std::vector<int> ClusterSignedGraph(int n_nodes, std::span<const SignedEdge> edges);
+std::vector<int> ClusterSignedGraph(std::span<const float> sizes,
+                                    std::span<const SignedEdge> edges);
 
 }  // namespace beckon::perception

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kBlock = 6;          // cells along a block's edge
 constexpr int kHypotheses = 250;
+constexpr size_t kCounted = 400;  // about so many blocks judge a hypothesis
 constexpr float kFlat = 3;         // standard deviations that a flat block's cells may be off
 constexpr float kParallel = 0.96f;  // cosine between normals on one plane (16 degrees)
 constexpr double kHigherShare = 0.05;
@@ -24,6 +25,7 @@ struct Block {
   float x, y, w;  // its centre
   float left, top, right, bottom;  // in ray coordinates
   Eigen::Vector3f normal;          // towards the camera
+  float noise_m;                   // twice the standard deviation of the depth
 };
 
 /// A plane as n·p + d = 0 with the normal towards the camera, d > 0.
@@ -90,7 +92,8 @@ std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top, const In
                               mean - a * grid.fx * centre.x() - b * grid.fy * centre.y());
   return Block{centre.x(), centre.y(), mean,
                centre.x() - half / grid.fx, centre.y() - half / grid.fy,
-               centre.x() + half / grid.fx, centre.y() + half / grid.fy, -slope.normalized()};
+               centre.x() + half / grid.fx, centre.y() + half / grid.fy, -slope.normalized(),
+               2 * noise(mean) / (mean * mean)};
 }
 
 std::vector<Block> FlatBlocks(const DepthGrid& grid, const InverseDepthNoise& noise) {
@@ -112,13 +115,11 @@ struct PlaneQuery {
 class PlaneSearch {
  public:
   PlaneSearch(const std::vector<Block>& blocks, const SegmentationConfig& config)
-      : blocks_(blocks), config_(config) {}
+      : blocks_(blocks), distance_m_(static_cast<float>(config.plane_distance_m)) {}
 
-  bool On(const Hypothesis& plane, const Block& b, double within = 1) const {
-    const double z = 1 / b.w;
-    const double noise_m = 2 * config_.sensor.Sigma(z) * std::abs(plane.normal.z());
-    return std::abs(plane.Height(b)) < within * std::max(config_.plane_distance_m, noise_m) &&
-           plane.normal.dot(b.normal) > kParallel;
+  bool On(const Hypothesis& plane, const Block& b) const {
+    const float limit_m = std::max(distance_m_, b.noise_m * std::abs(plane.normal.z()));
+    return std::abs(plane.Height(b)) < limit_m && plane.normal.dot(b.normal) > kParallel;
   }
 
   /// The best plane among some blocks; refined.
@@ -128,6 +129,7 @@ class PlaneSearch {
       if (blocks_[i].normal.dot(query.towards) > query.least_cosine - 0.15f) candidates.push_back(i);
     }
     if (candidates.size() < 3) return std::nullopt;
+    const size_t stride = 1 + candidates.size() / kCounted;
     std::mt19937 engine(1);
     auto draw = [&] { return candidates[engine() % candidates.size()]; };
     std::optional<Hypothesis> best;
@@ -135,7 +137,7 @@ class PlaneSearch {
     for (int h = 0; h < kHypotheses; ++h) {
       const auto plane = Through(draw(), draw(), draw());
       if (!plane || plane->normal.dot(query.towards) < query.least_cosine) continue;
-      const int n = Count(*plane, candidates);
+      const int n = Count(*plane, candidates, stride);
       if (n > most) most = n, best = plane;
     }
     if (!best) return best;
@@ -154,9 +156,9 @@ class PlaneSearch {
     return plane;
   }
 
-  int Count(const Hypothesis& plane, const std::vector<int>& among) const {
+  int Count(const Hypothesis& plane, const std::vector<int>& among, size_t stride) const {
     int n = 0;
-    for (int i : among) n += On(plane, blocks_[i]);
+    for (size_t k = 0; k < among.size(); k += stride) n += On(plane, blocks_[among[k]]);
     return n;
   }
 
@@ -170,7 +172,7 @@ class PlaneSearch {
   }
 
   const std::vector<Block>& blocks_;
-  const SegmentationConfig& config_;
+  float distance_m_;
 };
 
 /// A plane more than max_height_m above `floor`, parallel to it and large enough: the table over it.
