@@ -15,10 +15,10 @@ namespace beckon::perception {
 struct DepthGrid {
   int width = 0;
   int height = 0;
-  int pixels = 1;                    // edge length of a cell
+  int pixels = 1;                        // edge length of a cell
   float fx = 1, fy = 1, cx = 0, cy = 0;  // the camera, in cells
-  std::vector<float> inverse_depth;  // of each cell, 1/m; 0 where it has none
-  int n_pixels = 0;                  // of the image, in range
+  std::vector<float> inverse_depth;      // of each cell, 1/m; 0 where it has none
+  int n_pixels = 0;                      // of the image, in range
 
   size_t Size() const { return inverse_depth.size(); }
   size_t Index(int u, int v) const { return static_cast<size_t>(v) * width + u; }
@@ -39,12 +39,5 @@ int PixelsPerCell(const Intrinsics& intrinsics);
 /// the nearest of the surfaces in it, as far as the sensor can tell them apart.
 DepthGrid MakeDepthGrid(const RgbdImage& image, double min_range_m, double max_range_m,
                         const SensorNoise& sensor);
-
-/// Smooths inverse depth within `part` and keeps edges: a cell is averaged with pairs of cells on
-/// opposite sides of it whose mean agrees with it within the noise. Planes stay as they are, however
-/// tilted, and no pair reaches across an edge. Returns a copy of the grid's inverse depths where
-/// these are smoothed.
-std::vector<float> SmoothInverseDepth(const DepthGrid& grid, const CellRectangle& part,
-                                      const SensorNoise& sensor);
 
 }  // namespace beckon::perception

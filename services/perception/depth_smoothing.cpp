@@ -1,16 +1,16 @@
-// Edge-preserving smoothing of inverse depth by pairs of opposite cells.
+// Pairs of opposite cells, along rows and along columns in turn.
+#include "services/perception/depth_smoothing.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "services/perception/depth_grid.h"
 
 namespace beckon::perception {
 namespace {
 
-constexpr int kReach = 3;         // cells to either side
-constexpr int kPasses = 2;        // of both directions
-constexpr float kAgrees = 2.5f;   // standard deviations that a pair's mean may be off
-constexpr float kSteepest = 24;   // standard deviations a cell that a smooth surface may change
+constexpr int kReach = 3;        // cells to either side
+constexpr int kPasses = 2;       // of both directions
+constexpr float kAgrees = 2.5f;  // standard deviations that a pair's mean may be off
+constexpr float kSteepest = 24;  // standard deviations a cell that a smooth surface may change
 
 /// Averages each cell of a row with the pairs `stride` cells apart that agree with it. All the
 /// cells that are read must exist.

@@ -9,9 +9,10 @@ namespace beckon::perception {
 namespace {
 
 constexpr float kDegree = 3.14159265f / 180;
-constexpr float kBent = 9 * kDegree;  // a smooth surface turns no more between patches
-constexpr float kRoundest = 28 * kDegree;   // between patches of the inside of something round
-constexpr float kAlike = 0.4f;              // least part of the bend on either side
+constexpr float kBent = 9 * kDegree;       // a smooth surface turns no more between patches
+constexpr float kSure = 2;                 // standard deviations of the angle between two normals
+constexpr float kRoundest = 28 * kDegree;  // between patches of the inside of something round
+constexpr float kAlike = 0.25f;            // least part of the bend on either side
 constexpr float kSmoothEvidence = 0.5f;
 
 }  // namespace
@@ -32,9 +33,9 @@ bool MeetAtCorner(const Patch& a, const Patch& b) {
 
 float ConvexityEvidence(const Patch& a, const Patch& b) {
   const float angle = CreaseAngle(a, b);
-  if (angle >= 0) return 1 - 0.5f * std::min(1.0f, angle / (90 * kDegree));
+  if (angle >= 0) return 1;
   const float noise = std::hypot(a.normal_sigma, b.normal_sigma);
-  const float allowed = std::hypot(kBent, 1.0f * noise);
+  const float allowed = std::hypot(kBent, kSure * noise);
   return std::clamp(1 + angle / allowed, -1.0f, 1.0f);
 }
 
@@ -74,7 +75,7 @@ bool BendsThroughout(const SurfacePatches& patches, const Neighbours& neighbours
   const auto behind_b = CreaseBehind(patches, neighbours, b, a);
   if (!behind_a && !behind_b) return false;
   auto bends = [angle](const std::optional<float>& crease) {
-    return !crease || (*crease < kAlike * angle && *crease > -kRoundest);
+    return !crease || (*crease<kAlike * angle&& * crease> - kRoundest);
   };
   return bends(behind_a) && bends(behind_b);
 }

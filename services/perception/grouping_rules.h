@@ -18,8 +18,8 @@ float CreaseAngle(const Patch& a, const Patch& b);
 /// 2014, eq. 4-5).
 bool MeetAtCorner(const Patch& a, const Patch& b);
 
-/// 1 on one smooth surface, less over a convex edge, negative over a concave one, down to -1.
-/// What noise does to the angle is allowed for.
+/// 1 on one smooth surface and over a convex edge, negative over a concave one, down to -1. What
+/// noise does to the angle is allowed for.
 float ConvexityEvidence(const Patch& a, const Patch& b);
 
 /// The patches that each patch touches.

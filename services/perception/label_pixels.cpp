@@ -44,13 +44,21 @@ std::vector<uint16_t> LabelPixels(const RgbdImage& image, const DepthGrid& grid,
   FillCells(grid, cells, noise, label_of_cell);
   std::vector<uint16_t> labels(image.depth_m.size(), 0);
   const int p = grid.pixels;
-  const int left = std::max(1, cells.part.left - 1), right = std::min(grid.width - 1, cells.part.right + 1);
-  const int top = std::max(1, cells.part.top - 1), bottom = std::min(grid.height - 1, cells.part.bottom + 1);
+  const int left = std::max(1, cells.part.left - 1),
+            right = std::min(grid.width - 1, cells.part.right + 1);
+  const int top = std::max(1, cells.part.top - 1),
+            bottom = std::min(grid.height - 1, cells.part.bottom + 1);
   for (int cv = top; cv < bottom; ++cv) {
     for (int cu = left; cu < right; ++cu) {
       const size_t i = grid.Index(cu, cv);
-      const size_t near[9] = {i, i - 1, i + 1, i - grid.width, i + grid.width,
-                              i - grid.width - 1, i - grid.width + 1, i + grid.width - 1,
+      const size_t near[9] = {i,
+                              i - 1,
+                              i + 1,
+                              i - grid.width,
+                              i + grid.width,
+                              i - grid.width - 1,
+                              i - grid.width + 1,
+                              i + grid.width - 1,
                               i + grid.width + 1};
       if (std::none_of(near, near + 9, [&](size_t j) { return label_of_cell[j] != 0; })) continue;
       for (int y = 0; y < p; ++y) {

@@ -22,7 +22,7 @@ void AddOptions(CLI::App& app, Options& o) {
   AddAppOptions(app, o.app);
   auto* input = app.add_option("--input", o.offline.input,
                                "Perceive this cloud (.pcd, .ply) and leave; no bus");
-  app.add_option("--segmentation", o.overrides.segmentation, "How to segment: reference");
+  app.add_option("--segmentation", o.overrides.segmentation, "How to segment: fast or reference");
   app.add_flag("--no-categories", o.overrides.no_categories,
                "Do not say of which category objects are");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");

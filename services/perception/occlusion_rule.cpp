@@ -18,8 +18,8 @@ constexpr float kOnSurface = 1.5f;     // standard deviations of a reading, root
 constexpr float kNearer = 4;           // standard deviations that an occluder is in front
 constexpr float kLargest_m = 0.40f;    // an object
 constexpr float kLeastOverlap = 0.5f;  // of the smaller part, across the gap
-constexpr int kLeastHidden = 2;         // cells along which an occluder borders what it hides
-constexpr size_t kFewestRound = 3;      // patches of a part of a cylinder
+constexpr int kLeastHidden = 2;        // cells along which an occluder borders what it hides
+constexpr size_t kFewestRound = 3;     // patches of a part of a cylinder
 constexpr int kLines = 5;              // of sight across the gap
 constexpr float kLeastFilled = 0.7f;   // of the gap by the occluder, where there is depth
 
@@ -51,7 +51,8 @@ class GapCheck {
     std::vector<std::pair<float, std::pair<int, int>>> lines;
     for (int i : small) {
       const int j = Nearest(patches, {i}, large).second;
-      lines.push_back({std::hypot(patches[i].u - patches[j].u, patches[i].v - patches[j].v), {i, j}});
+      lines.push_back(
+          {std::hypot(patches[i].u - patches[j].u, patches[i].v - patches[j].v), {i, j}});
     }
     std::sort(lines.begin(), lines.end());
     const int n = std::min<int>(kLines, static_cast<int>(lines.size()));
@@ -79,7 +80,8 @@ class GapCheck {
       const float surface = (1 - t) / from.centre_C.z() + t / to.centre_C.z();
       (w > surface + kNearer * noise_(w) ? nearer : open) += 1;
     }
-    return nearer >= 2 && static_cast<float>(nearer) >= kLeastFilled * static_cast<float>(nearer + open);
+    return nearer >= 2 &&
+           static_cast<float>(nearer) >= kLeastFilled * static_cast<float>(nearer + open);
   }
 
   int GroupAt(float u, float v) const {
@@ -161,7 +163,8 @@ bool OneCylinder(const PatchScene& scene, const std::vector<int>& a, const std::
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(normals);
   const Eigen::Vector3f axis = solver.eigenvectors().col(0);
   const float n_sides = static_cast<float>(sides[0].size() + sides[1].size());
-  if (std::abs(axis.dot(between)) < 0.94f || solver.eigenvalues()[1] < 0.03f * n_sides) return false;
+  if (std::abs(axis.dot(between)) < 0.94f || solver.eigenvalues()[1] < 0.03f * n_sides)
+    return false;
   // p - R n = c, across the axis: least squares of the centre and the radius.
   Eigen::Vector3f mean_p(0, 0, 0), mean_n(0, 0, 0);
   for (const auto& side : sides) {

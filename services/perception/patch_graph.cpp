@@ -8,8 +8,8 @@ namespace beckon::perception {
 namespace {
 
 constexpr float kHardlyTurns = 0.97f;  // cosine of 14 degrees
-constexpr int kShadow = 12;  // cells without depth between an occluder and what it hides
-constexpr float kMeets = 4;  // standard deviations between surfaces that meet
+constexpr int kShadow = 12;            // cells without depth between an occluder and what it hides
+constexpr float kMeets = 4;            // standard deviations between surfaces that meet
 
 /// Collects the edges of each patch in a short list of its own.
 class EdgeCollector {
@@ -44,7 +44,10 @@ class BorderCounter {
  public:
   BorderCounter(const DepthGrid& grid, const SurfaceCells& cells, const SurfacePatches& patches,
                 const SensorNoise& sensor)
-      : grid_(grid), cells_(cells), patches_(patches), noise_(sensor),
+      : grid_(grid),
+        cells_(cells),
+        patches_(patches),
+        noise_(sensor),
         edges_(patches.patches.size()) {}
 
   /// From a cell of a patch to the next cell with depth in the direction (du, dv).

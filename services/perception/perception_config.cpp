@@ -20,6 +20,14 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
   if (config.min_range_m >= config.max_range_m) {
     table.Fail("max_range_m", "must be greater than min_range_m");
   }
+  table.Get("fast_min_range_m", config.fast_min_range_m, 0.01, 100);
+  if (config.fast_min_range_m >= config.max_range_m) {
+    table.Fail("max_range_m", "must be greater than fast_min_range_m");
+  }
+  table.Get("noise_floor_m", config.sensor.floor_m, 0.00001, 0.1);
+  table.Get("noise_growth_per_m", config.sensor.growth_per_m, 0, 0.1);
+  table.Get("noise_from_m", config.sensor.from_m, 0, 10);
+  table.Get("min_object_m2", config.min_object_m2, 0.000001, 1);
   table.Get("voxel_m", config.voxel_m, 0.0005, 0.1);
   table.Get("use_normals", config.use_normals);
   table.Get("normal_neighbours", config.normal_neighbours, 3, 1000);

@@ -15,8 +15,11 @@ constexpr float kShortBorder = 0.08f;
 class Agglomeration {
  public:
   Agglomeration(std::span<const float> sizes, std::span<const SignedEdge> edges)
-      : edges_(edges.begin(), edges.end()), version_(edges.size(), 0), edges_of_(sizes.size()),
-        parent_(sizes.size()), size_(sizes.begin(), sizes.end()) {
+      : edges_(edges.begin(), edges.end()),
+        version_(edges.size(), 0),
+        edges_of_(sizes.size()),
+        parent_(sizes.size()),
+        size_(sizes.begin(), sizes.end()) {
     for (size_t i = 0; i < sizes.size(); ++i) parent_[i] = static_cast<int>(i);
     for (size_t e = 0; e < edges_.size(); ++e) {
       edges_[e].evidence *= edges_[e].length;  // a sum from here on

@@ -14,11 +14,11 @@ struct SignedEdge {
   float length = 0;
 };
 
-/// Merges the two neighbouring groups with the largest mean evidence along their whole border, again
-/// and again, while that is positive. A single wrong edge thus joins nothing: it is outvoted by the
-/// rest of the border (average linkage on signed graphs: Bailoni et al., "GASP, a Generalized
-/// Framework for Agglomerative Clustering of Signed Graphs", 2022). Ties go to the edge that comes
-/// first. Returns the group of each node, numbered from 0 in order of their first nodes.
+/// Merges the two neighbouring groups with the largest mean evidence along their whole border,
+/// again and again, while that is positive. A single wrong edge thus joins nothing: it is outvoted
+/// by the rest of the border (average linkage on signed graphs: Bailoni et al., "GASP, a
+/// Generalized Framework for Agglomerative Clustering of Signed Graphs", 2022). Ties go to the edge
+/// that comes first. Returns the group of each node, numbered from 0 in order of their first nodes.
 std::vector<int> ClusterSignedGraph(std::span<const float> sizes,
                                     std::span<const SignedEdge> edges);
 

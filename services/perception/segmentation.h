@@ -22,12 +22,14 @@ const char* Name(SegmentationMethod method);
 Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
 
 /// Section [segmentation] of the configuration. Defaults after the dissertation's chapter 3, but
-/// for min_height_m (there 0.02): 0.01 keeps flat objects and scored better on real scenes.
+/// for min_height_m (there 0.02): 0.01 keeps flat objects and scored better on real scenes. What
+/// voxels, normals and clusters are is of the reference method only.
 struct SegmentationConfig {
   SegmentationMethod method = SegmentationMethod::kFast;
-  SensorNoise sensor;
-  double fast_min_range_m = 0.3;
-  double min_range_m = 0.5;  // depth that is used, along the optical axis
+  SensorNoise sensor;             // fast only: its thresholds follow from this
+  double fast_min_range_m = 0.3;  // fast instead of min_range_m: objects come nearer than tables
+  double min_object_m2 = 0.0004;  // fast only: visible surface, less is no object
+  double min_range_m = 0.5;       // depth that is used, along the optical axis
   double max_range_m = 3.0;
   double voxel_m = 0.002;          // edge length of the voxels
   bool use_normals = false;        // a plane by points and normals: slower by a factor of 50
@@ -35,7 +37,7 @@ struct SegmentationConfig {
   double normal_weight = 0.1;      // 0..1, of angles against distances, where normals are used
   double plane_distance_m = 0.01;  // points this close to a plane lie on it
   int plane_iterations = 1000;     // most hypotheses of RANSAC
-  int plane_min_points = 2000;     // voxels, fewer are no table
+  int plane_min_points = 2000;     // voxels (fast: pixels), fewer are no table
   double table_max_tilt_deg = 80;  // between the table's normal and up in the image; more is a wall
   double table_gap_m = 0.10;       // pieces of a table that are this close belong together
   double min_height_m = 0.01;      // above the table, of what is an object
@@ -57,7 +59,7 @@ struct Segmentation {
 
   int n_points = 0;  // pixels in range
   int n_voxels = 0;
-  int n_table_points = 0;  // voxels of the table
+  int n_table_points = 0;  // voxels (fast: pixels) of the table
   int n_prism_points = 0;  // voxels above the table
   int n_left_out = 0;      // objects beyond max_objects
 };

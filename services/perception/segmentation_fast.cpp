@@ -2,11 +2,12 @@
 #include "services/perception/segmentation_fast.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
-#include "services/perception/object_grouping.h"
+#include "services/perception/depth_smoothing.h"
 #include "services/perception/label_pixels.h"
+#include "services/perception/object_grouping.h"
+#include "services/perception/object_selection.h"
 #include "services/perception/surface_patches.h"
 #include "services/perception/table_outline.h"
 #include "services/perception/table_planes.h"
@@ -14,33 +15,56 @@
 namespace beckon::perception {
 namespace {
 
-/// Marks the cells above the table and finds the rectangle that holds them.
-void MarkAbove(const DepthGrid& grid, const std::vector<float>& inverse, const Plane& table_C,
-               const SegmentationConfig& config, SurfaceCells& cells) {
-  const InverseDepthNoise noise(config.sensor);
-  cells.used.assign(grid.Size(), 0);
-  const auto n = table_C.normal.cast<float>().eval();
-  const auto d = static_cast<float>(table_C.offset_m), most = static_cast<float>(config.max_height_m);
-  const float least = std::min(static_cast<float>(config.min_height_m), 0.004f);
-  CellRectangle part{grid.width, grid.height, 0, 0};
-  for (int v = 0; v < grid.height; ++v) {
-    const size_t row = grid.Index(0, v);
-    int first = grid.width, last = -1;
-    for (int u = 0; u < grid.width; ++u) {
-      const float w = inverse[row + u];
-      const float facing = n.dot(grid.Ray(static_cast<float>(u), static_cast<float>(v)));
-      const float height_w = facing + d * w;  // height above the table times w
-      const float low = std::max(least * w, 1.0f * noise(w) * std::abs(facing) / w);
-      const bool above = (w > 0) & (height_w > low) & (height_w < most * w);
-      cells.used[row + u] = above;
-      if (above) first = std::min(first, u), last = u;
-    }
-    if (last < 0) continue;
-    part.left = std::min(part.left, first), part.right = std::max(part.right, last + 1);
-    part.top = std::min(part.top, v), part.bottom = v + 1;
+std::string TooFewPoints(const DepthGrid& grid, const SegmentationConfig& config) {
+  std::ostringstream text;
+  text << "only " << grid.n_pixels << " pixels have depth between " << config.fast_min_range_m
+       << " and " << config.max_range_m << " m, too few for a table";
+  return text.str();
+}
+
+/// Takes the found table into the result.
+void TellTable(const TablePlane& table, Segmentation& result) {
+  result.table_C = table.table_C;
+  result.reason = table.reason;
+  result.n_table_points = table.n_pixels;
+  if (!table.table_C) return;
+  const PlaneAxes axes(*table.table_C);
+  for (const auto& p : table.outline) {
+    result.hull_C.push_back(axes.x * p.x() + axes.y * p.y() -
+                            table.table_C->normal * table.table_C->offset_m);
   }
-  if (part.right == 0) part = {};
-  cells.part = part;
+}
+
+/// The number of each cell's group among the objects, from 1.
+std::vector<uint16_t> LabelCells(const SurfacePatches& patches, const PatchGroups& groups,
+                                 const std::vector<int>& objects) {
+  std::vector<uint16_t> label_of_group(groups.Count(), 0);
+  for (size_t k = 0; k < objects.size(); ++k) {
+    label_of_group[objects[k]] = static_cast<uint16_t>(k + 1);
+  }
+  std::vector<uint16_t> label_of_cell(patches.patch_of_cell.size(), 0);
+  for (size_t i = 0; i < label_of_cell.size(); ++i) {
+    const int patch = patches.patch_of_cell[i];
+    if (patch >= 0) label_of_cell[i] = label_of_group[groups.Of(patch)];
+  }
+  return label_of_cell;
+}
+
+/// Numbers the objects anew, the one with most pixels first, and keeps the first `most`.
+void NumberBySize(int n_labels, int most, Segmentation& result) {
+  std::vector<int> n_pixels(n_labels + 1, 0);
+  for (uint16_t label : result.labels) ++n_pixels[label];
+  std::vector<int> order;
+  for (int k = 1; k <= n_labels; ++k) {
+    if (n_pixels[k] > 0) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return n_pixels[a] > n_pixels[b]; });
+  result.n_objects = std::min(static_cast<int>(order.size()), most);
+  result.n_left_out = static_cast<int>(order.size()) - result.n_objects;
+  std::vector<uint16_t> number(n_labels + 1, 0);
+  for (int k = 0; k < result.n_objects; ++k) number[order[k]] = static_cast<uint16_t>(k + 1);
+  for (uint16_t& label : result.labels) label = number[label];
 }
 
 }  // namespace
@@ -51,60 +75,39 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
     if (done) done(step);
   };
   Segmentation result;
+  result.labels.assign(image.depth_m.size(), 0);
   const DepthGrid grid =
       MakeDepthGrid(image, config.fast_min_range_m, config.max_range_m, config.sensor);
   result.n_points = grid.n_pixels;
   finished("grid");
-  const TablePlane table = FindTablePlane(grid, config);
-  finished("table");
-  if (!table.table_C) {
-    result.reason = table.reason;
-    result.labels.assign(image.depth_m.size(), 0);
+  if (grid.n_pixels < config.plane_min_points) {
+    result.reason = TooFewPoints(grid, config);
     return result;
   }
-  result.table_C = table.table_C;
-  const PlaneAxes axes(*table.table_C);
-  for (const auto& p : table.outline) {
-    result.hull_C.push_back(axes.x * p.x() + axes.y * p.y() -
-                            table.table_C->normal * table.table_C->offset_m);
-  }
+  const TablePlane table = FindTablePlane(grid, config);
+  TellTable(table, result);
+  finished("table");
+  if (!table.table_C) return result;
 
+  const CellRectangle space =
+      SpaceOverTable(grid, *table.table_C, result.hull_C, config.max_height_m);
   SurfaceCells cells;
-  MarkAbove(grid, grid.inverse_depth, *table.table_C, config, cells);
+  MarkAboveTable(grid, grid.inverse_depth, space, *table.table_C, config, cells);
   cells.inverse_depth = SmoothInverseDepth(grid, cells.part, config.sensor);
-  MarkAbove(grid, cells.inverse_depth, *table.table_C, config, cells);
-  finished("smooth");
+  MarkAboveTable(grid, cells.inverse_depth, space, *table.table_C, config, cells);
   EstimateNormals(grid, config.sensor, cells);
-  finished("normals");
+  finished("surface");
   SurfacePatches patches = MakePatches(grid, cells, config.sensor);
   finished("patches");
-  const auto edges = FindEdges(grid, cells, patches, config.sensor);
+  const std::vector<PatchEdge> edges = FindEdges(grid, cells, patches, config.sensor);
   SteadyNormals(edges, patches);
-  finished("edges");
-  const PatchGroups groups = GroupPatches({grid, cells, patches, edges, *table.table_C, config.sensor});
-  std::vector<int> group(patches.patches.size());
-  for (size_t i = 0; i < group.size(); ++i) group[i] = groups.Of(i);
-  int n_groups = 0;
-  for (int g : group) n_groups = std::max(n_groups, g + 1);
-  struct Sum { int n = 0, inside = 0; float area = 0, top = 0; };
-  std::vector<Sum> sums(n_groups);
-  for (size_t k = 0; k < group.size(); ++k) {
-    auto& s = sums[group[k]];
-    const Patch& p = patches.patches[k];
-    s.n += p.n_cells, s.area += p.area_m2;
-    const Eigen::Vector3d c = p.centre_C.cast<double>();
-    s.top = std::max(s.top, (float)table.table_C->Distance(c));
-    if (DepthInside(table.outline, axes(c)) > config.border_m) s.inside += p.n_cells;
-  }
-  std::vector<int> order;
-  for (int g = 0; g < n_groups; ++g) if (sums[g].area > 0.0004f && sums[g].inside * 5 > sums[g].n && sums[g].top > config.min_height_m) order.push_back(g);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sums[a].n > sums[b].n; });
-  std::vector<uint16_t> label(n_groups, 0), label_of_cell(grid.Size(), 0);
-  for (size_t i = 0; i < order.size() && i < (size_t)config.max_objects; ++i) label[order[i]] = i + 1;
-  for (size_t i = 0; i < label_of_cell.size(); ++i) if (patches.patch_of_cell[i] >= 0) label_of_cell[i] = label[group[patches.patch_of_cell[i]]];
+  const PatchScene scene{grid, cells, patches, edges, *table.table_C, config.sensor};
+  const PatchGroups groups = GroupPatches(scene);
   finished("grouping");
-  result.n_objects = std::min<int>(order.size(), config.max_objects);
-  result.labels = LabelPixels(image, grid, cells, label_of_cell, config.sensor);
+  const std::vector<int> objects = SelectObjects(scene, groups, table.outline, config);
+  result.labels =
+      LabelPixels(image, grid, cells, LabelCells(patches, groups, objects), config.sensor);
+  NumberBySize(static_cast<int>(objects.size()), config.max_objects, result);
   finished("labels");
   return result;
 }

@@ -3,11 +3,11 @@
 
 namespace beckon::perception {
 
-/// Noise of depth along the optical axis, sigma(z) = floor + growth (z - from)^2, and the step its
-/// readings come in, step(z) = step_per_m z^2. Defaults: the Kinect's, after Nguyen, Izadi & Lovell
-/// ("Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking", 2012, eq. 3) and
-/// Khoshelham & Elberink ("Accuracy and Resolution of Kinect Depth Data", 2012: the disparity is
-/// told in steps of 1/8 px, and depth = 42.9 m px / disparity).
+/// Noise of depth along the optical axis, sigma(z) = floor + growth (z - from)^2. Defaults: the
+/// Kinect's, after Nguyen, Izadi & Lovell ("Modeling Kinect Sensor Noise for Improved 3D
+/// Reconstruction and Tracking", 2012, eq. 3), which holds the steps its readings come in
+/// (Khoshelham & Elberink, "Accuracy and Resolution of Kinect Depth Data", 2012: disparity in 1/8
+/// px, that is 2.9 mm at 1 m, growing with the square of the depth).
 ///
 /// Segmentation works on inverse depth w = 1/z: there a plane is linear in the pixel (w = n·ray / d
 /// for the plane n·p = d), steps are equal at all distances, and the noise of a camera that
@@ -16,7 +16,6 @@ struct SensorNoise {
   double floor_m = 0.0012;
   double growth_per_m = 0.0019;
   double from_m = 0.4;
-  double step_per_m = 0.0029;
 
   /// Standard deviation of the depth at z, m.
   double Sigma(double z_m) const {

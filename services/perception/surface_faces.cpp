@@ -8,7 +8,7 @@
 namespace beckon::perception {
 namespace {
 
-constexpr float kSameFace = 0.978f;   // cosine of 12 degrees
+constexpr float kSameFace = 0.978f;  // cosine of 12 degrees
 constexpr size_t kFewestPatches = 2;
 constexpr float kFlat = 1.5f;  // standard deviations that patches may be off
 
@@ -26,7 +26,8 @@ Face FitFace(const PatchScene& scene, int group, std::vector<int> members) {
     const Patch& patch = scene.patches.patches[i];
     // A patch counts by points on its plane around its centre, so that it has a say in the tilt.
     const float reach = 0.3f * std::sqrt(static_cast<float>(patch.n_cells));
-    for (const auto& [du, dv] : {std::pair(-1, -1), std::pair(1, -1), std::pair(-1, 1), std::pair(1, 1)}) {
+    for (const auto& [du, dv] :
+         {std::pair(-1, -1), std::pair(1, -1), std::pair(-1, 1), std::pair(1, 1)}) {
       const Eigen::Vector3f ray = scene.grid.Ray(patch.u + reach * static_cast<float>(du),
                                                  patch.v + reach * static_cast<float>(dv));
       const Eigen::Vector3d r = ray.cast<double>();
@@ -60,9 +61,8 @@ std::vector<Face> FindFaces(const PatchScene& scene, const PatchGroups& groups) 
   }
   std::vector<int> order(patches.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return neighbours[a].size() > neighbours[b].size();
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return neighbours[a].size() > neighbours[b].size(); });
   std::vector<uint8_t> taken(patches.size(), 0);
   std::vector<Face> faces;
   for (int seed : order) {

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kIterations = 3;
 constexpr int kFewestSeedCells = 5;
-constexpr float kNormalWeight = 5;    // of |n - n_patch|^2
+constexpr float kNormalWeight = 5;     // of |n - n_patch|^2
 constexpr float kPlaneWeight = 0.12f;  // of (distance from the plane / sigma)^2
-constexpr float kOffPlane = 6;        // standard deviations: another surface
+constexpr float kOffPlane = 6;         // standard deviations: another surface
 constexpr int kFewestCells = 4;
 
 /// What k-means holds of a patch.
@@ -39,13 +39,15 @@ std::vector<Seed> PlaceSeeds(const DepthGrid& grid, const SurfaceCells& cells) {
         for (int u = left; u < std::min(left + kPatchCells, cells.part.right); ++u) {
           if (!cells.used[grid.Index(u, v)]) continue;
           ++n;
-          const int off = std::abs(2 * (u - left) - kPatchCells) + std::abs(2 * (v - top) - kPatchCells);
+          const int off =
+              std::abs(2 * (u - left) - kPatchCells) + std::abs(2 * (v - top) - kPatchCells);
           if (off < best) best = off, best_u = u, best_v = v;
         }
       }
       if (n < kFewestSeedCells) continue;
       const size_t i = grid.Index(best_u, best_v);
-      seeds.push_back({static_cast<float>(best_u), static_cast<float>(best_v),
+      seeds.push_back({static_cast<float>(best_u),
+                       static_cast<float>(best_v),
                        cells.inverse_depth[i],
                        {cells.normal_x[i], cells.normal_y[i], cells.normal_z[i]}});
     }
@@ -202,7 +204,8 @@ void EstimateNormals(const DepthGrid& grid, const SensorNoise& sensor, SurfaceCe
   cells.normal_y.assign(grid.Size(), 0);
   cells.normal_z.assign(grid.Size(), -1);
   const int left = std::max(2, cells.part.left), right = std::min(grid.width - 2, cells.part.right);
-  const int top = std::max(2, cells.part.top), bottom = std::min(grid.height - 2, cells.part.bottom);
+  const int top = std::max(2, cells.part.top),
+            bottom = std::min(grid.height - 2, cells.part.bottom);
   for (int v = top; v < bottom; ++v) {
     const size_t row = grid.Index(0, v);
     const float y = (static_cast<float>(v) - grid.cy) / grid.fy;

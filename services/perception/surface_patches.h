@@ -11,9 +11,9 @@ namespace beckon::perception {
 
 /// Cells that may belong to objects, with what is known of their surface.
 struct SurfaceCells {
-  CellRectangle part;                 // all such cells are in it
-  std::vector<uint8_t> used;          // a cell of the grid; 1 = above the table
-  std::vector<float> inverse_depth;   // smoothed
+  CellRectangle part;                               // all such cells are in it
+  std::vector<uint8_t> used;                        // a cell of the grid; 1 = above the table
+  std::vector<float> inverse_depth;                 // smoothed
   std::vector<float> normal_x, normal_y, normal_z;  // in C, towards the camera; where used
 };
 
@@ -22,11 +22,11 @@ struct Patch {
   int n_cells = 0;
   float u = 0, v = 0;  // centroid in the grid, cells
   Eigen::Vector3f slope{0, 0, 0};
-  Eigen::Vector3f centre_C{0, 0, 0};  // on the plane, m
+  Eigen::Vector3f centre_C{0, 0, 0};   // on the plane, m
   Eigen::Vector3f normal_C{0, 0, -1};  // towards the camera
   float area_m2 = 0;
   Eigen::Vector3f steady_normal_C{0, 0, -1};  // averaged over neighbours that hardly differ
-  float normal_sigma = 0;  // rad, of the normal by the sensor's noise
+  float normal_sigma = 0;                     // rad, of the normal by the sensor's noise
   Eigen::Vector3f colour{0, 0, 0};
 
   float InverseDepth(const Eigen::Vector3f& ray) const { return slope.dot(ray); }

@@ -13,16 +13,16 @@
 namespace beckon::perception {
 namespace {
 
-constexpr int kBlock = 6;          // cells along a block's edge
+constexpr int kBlock = 6;  // cells along a block's edge
 constexpr int kHypotheses = 250;
-constexpr size_t kCounted = 400;  // about so many blocks judge a hypothesis
-constexpr float kFlat = 3;         // standard deviations that a flat block's cells may be off
+constexpr size_t kCounted = 400;    // about so many blocks judge a hypothesis
+constexpr float kFlat = 3;          // standard deviations that a flat block's cells may be off
 constexpr float kParallel = 0.96f;  // cosine between normals on one plane (16 degrees)
 constexpr double kHigherShare = 0.05;
 
 /// A block whose cells lie on a plane: w = slope · (x, y, 1) with (x, y, 1) the ray.
 struct Block {
-  float x, y, w;  // its centre
+  float x, y, w;                   // its centre
   float left, top, right, bottom;  // in ray coordinates
   Eigen::Vector3f normal;          // towards the camera
   float noise_m;                   // twice the standard deviation of the depth
@@ -56,7 +56,8 @@ struct RayFit {
   }
 };
 
-std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top, const InverseDepthNoise& noise) {
+std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top,
+                              const InverseDepthNoise& noise) {
   // On a full block sums of positions vanish and the fit is in closed form.
   float sum = 0, along_u = 0, along_v = 0, squares = 0, least = 1e30f;
   for (int y = 0; y < kBlock; ++y) {
@@ -90,9 +91,14 @@ std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top, const In
   const Eigen::Vector3f centre = grid.Ray(u, v);
   const Eigen::Vector3f slope(a * grid.fx, b * grid.fy,
                               mean - a * grid.fx * centre.x() - b * grid.fy * centre.y());
-  return Block{centre.x(), centre.y(), mean,
-               centre.x() - half / grid.fx, centre.y() - half / grid.fy,
-               centre.x() + half / grid.fx, centre.y() + half / grid.fy, -slope.normalized(),
+  return Block{centre.x(),
+               centre.y(),
+               mean,
+               centre.x() - half / grid.fx,
+               centre.y() - half / grid.fy,
+               centre.x() + half / grid.fx,
+               centre.y() + half / grid.fy,
+               -slope.normalized(),
                2 * noise(mean) / (mean * mean)};
 }
 
@@ -126,7 +132,8 @@ class PlaneSearch {
   std::optional<Hypothesis> Find(const std::vector<int>& among, const PlaneQuery& query) const {
     std::vector<int> candidates;
     for (int i : among) {
-      if (blocks_[i].normal.dot(query.towards) > query.least_cosine - 0.15f) candidates.push_back(i);
+      if (blocks_[i].normal.dot(query.towards) > query.least_cosine - 0.15f)
+        candidates.push_back(i);
     }
     if (candidates.size() < 3) return std::nullopt;
     const size_t stride = 1 + candidates.size() / kCounted;
@@ -175,7 +182,8 @@ class PlaneSearch {
   float distance_m_;
 };
 
-/// A plane more than max_height_m above `floor`, parallel to it and large enough: the table over it.
+/// A plane more than max_height_m above `floor`, parallel to it and large enough: the table over
+/// it.
 std::optional<Hypothesis> FindHigher(const PlaneSearch& search, const Hypothesis& floor,
                                      const std::vector<Block>& blocks,
                                      const SegmentationConfig& config) {
@@ -246,8 +254,10 @@ TablePlane FindTablePlane(const DepthGrid& grid, const SegmentationConfig& confi
   if (table) {
     if (auto higher = FindHigher(search, *table, blocks, config)) table = higher;
     const Plane table_C{table->normal.cast<double>().normalized(), table->offset_m};
-    result.outline = Outline(search, *table, table_C, blocks, config.table_gap_m, result.n_blocks);
-    if (result.n_blocks >= least && result.outline.size() >= 3) {
+    int n_blocks = 0;
+    result.outline = Outline(search, *table, table_C, blocks, config.table_gap_m, n_blocks);
+    result.n_pixels = n_blocks * block_px * block_px;
+    if (n_blocks >= least && result.outline.size() >= 3) {
       result.table_C = table_C;
       return result;
     }

@@ -12,10 +12,10 @@ namespace beckon::perception {
 
 /// The table of a grid, or why there is none.
 struct TablePlane {
-  std::optional<Plane> table_C;            // normal towards the camera
-  std::vector<Eigen::Vector2d> outline;    // convex, in PlaneAxes(*table_C), counter-clockwise
+  std::optional<Plane> table_C;          // normal towards the camera
+  std::vector<Eigen::Vector2d> outline;  // convex, in PlaneAxes(*table_C), counter-clockwise
   std::string reason;
-  int n_blocks = 0;  // flat blocks on it
+  int n_pixels = 0;  // of flat blocks on it
 };
 
 /// The plane that most flat blocks of the grid lie on, by place and by normal, among those a table

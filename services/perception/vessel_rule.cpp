@@ -9,13 +9,13 @@ namespace beckon::perception {
 namespace {
 
 constexpr size_t kFewestPatches = 5;
-constexpr double kSteepest = 0.9;       // of the normal's height, for a wall
-constexpr double kLeastArc = 1.0;       // rad of the circle that must be seen
-constexpr double kMostOff_m = 0.0015;   // beside the noise
-constexpr double kMostTurn = 0.2;       // rad
+constexpr double kSteepest = 0.9;      // of the normal's height, for a wall
+constexpr double kLeastArc = 1.0;      // rad of the circle that must be seen
+constexpr double kMostOff_m = 0.0015;  // beside the noise
+constexpr double kMostTurn = 0.2;      // rad
 constexpr double kMinRadius_m = 0.015, kMaxRadius_m = 0.16;
 constexpr double kTolerance_m = 0.006;
-constexpr double kUpright = 0.5;        // least height of the normal of a bottom
+constexpr double kUpright = 0.5;                          // least height of the normal of a bottom
 constexpr double kThickWall_m = 0.01, kThickWall = 0.12;  // and a part of the radius
 
 /// A patch as seen from above.

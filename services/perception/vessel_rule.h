@@ -28,8 +28,7 @@ std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
                             const std::vector<int>& members);
 
 /// Whether a patch lies below the rim and within it: on the wall's inside, or on the bottom.
-bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
-              const Patch& patch);
+bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, const Patch& patch);
 
 /// What lies below the rim of a round vessel and within it belongs to the vessel: cups, bowls,
 /// mugs, pots. So does what they hold, unless it sticks out.
