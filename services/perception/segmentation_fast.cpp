@@ -105,8 +105,8 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   const PatchGroups groups = GroupPatches(scene);
   finished("grouping");
   const std::vector<int> objects = SelectObjects(scene, groups, table.outline, config);
-  result.labels =
-      LabelPixels(image, grid, cells, LabelCells(patches, groups, objects), config.sensor);
+  LabelPixels(image, grid, cells, LabelCells(patches, groups, objects), config.sensor,
+              result.labels);
   NumberBySize(static_cast<int>(objects.size()), config.max_objects, result);
   finished("labels");
   return result;

@@ -13,7 +13,8 @@
 namespace beckon::perception {
 namespace {
 
-constexpr int kBlock = 6;  // cells along a block's edge
+constexpr int kBlock = 6;           // cells along a block's edge
+constexpr float kFewestCells = 20;  // with depth, of a block
 constexpr int kHypotheses = 250;
 constexpr size_t kCounted = 400;    // about so many blocks judge a hypothesis
 constexpr float kFlat = 3;          // standard deviations that a flat block's cells may be off
@@ -56,50 +57,64 @@ struct RayFit {
   }
 };
 
-std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top,
-                              const InverseDepthNoise& noise) {
-  // On a full block sums of positions vanish and the fit is in closed form.
-  float sum = 0, along_u = 0, along_v = 0, squares = 0, least = 1e30f;
+/// Sums over the cells of a block that have depth; u and v count from its middle.
+struct BlockSums {
+  float n = 0, u = 0, v = 0, w = 0, uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, ww = 0;
+};
+
+BlockSums SumBlock(const DepthGrid& grid, int left, int top) {
+  BlockSums s;
   for (int y = 0; y < kBlock; ++y) {
     const float* row = &grid.inverse_depth[grid.Index(left, top + y)];
+    const float v = static_cast<float>(y) - (kBlock - 1) / 2.0f;
     for (int x = 0; x < kBlock; ++x) {
-      const float w = row[x];
-      least = std::min(least, w);
-      sum += w;
-      squares += w * w;
-      along_u += w * (static_cast<float>(x) - (kBlock - 1) / 2.0f);
-      along_v += w * (static_cast<float>(y) - (kBlock - 1) / 2.0f);
+      const float w = row[x], one = w > 0 ? 1.0f : 0.0f;
+      const float u = static_cast<float>(x) - (kBlock - 1) / 2.0f;
+      s.n += one, s.w += w, s.u += one * u, s.v += one * v;
+      s.uu += one * u * u, s.uv += one * u * v, s.vv += one * v * v;
+      s.uw += u * w, s.vw += v * w, s.ww += w * w;
     }
   }
-  if (least <= 0) return std::nullopt;
-  constexpr float kCells = kBlock * kBlock;
-  constexpr float kSpread = kCells * (kBlock * kBlock - 1) / 12.0f;
-  const float mean = sum / kCells, a = along_u / kSpread, b = along_v / kSpread;
+  return s;
+}
+
+std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top,
+                              const InverseDepthNoise& noise) {
+  const BlockSums s = SumBlock(grid, left, top);
+  if (s.n < kFewestCells) return std::nullopt;
+  const float u = s.u / s.n, v = s.v / s.n, w = s.w / s.n;
+  const float uu = s.uu / s.n - u * u, uv = s.uv / s.n - u * v, vv = s.vv / s.n - v * v;
+  const float uw = s.uw / s.n - u * w, vw = s.vw / s.n - v * w;
+  const float det = uu * vv - uv * uv;
+  if (det < 1) return std::nullopt;  // all on a line
+  const float a = (uw * vv - vw * uv) / det, b = (vw * uu - uw * uv) / det;
+  const float limit = kFlat * noise(w);
   float residual = 0;
   for (int y = 0; y < kBlock; ++y) {
     const float* row = &grid.inverse_depth[grid.Index(left, top + y)];
+    const float from_v = static_cast<float>(y) - (kBlock - 1) / 2.0f - v;
     for (int x = 0; x < kBlock; ++x) {
-      const float off = row[x] - mean - a * (static_cast<float>(x) - (kBlock - 1) / 2.0f) -
-                        b * (static_cast<float>(y) - (kBlock - 1) / 2.0f);
+      const float from_u = static_cast<float>(x) - (kBlock - 1) / 2.0f - u;
+      const float off = row[x] > 0 ? row[x] - w - a * from_u - b * from_v : 0;
       residual += off * off;
     }
   }
-  const float limit = kFlat * noise(mean);
-  if (residual > kCells * limit * limit) return std::nullopt;
+  if (residual > s.n * limit * limit) return std::nullopt;
   const float half = (kBlock - 1) / 2.0f;
-  const float u = static_cast<float>(left) + half, v = static_cast<float>(top) + half;
-  const Eigen::Vector3f centre = grid.Ray(u, v);
+  const Eigen::Vector3f low = grid.Ray(static_cast<float>(left), static_cast<float>(top));
+  const Eigen::Vector3f centre =
+      grid.Ray(static_cast<float>(left) + half + u, static_cast<float>(top) + half + v);
   const Eigen::Vector3f slope(a * grid.fx, b * grid.fy,
-                              mean - a * grid.fx * centre.x() - b * grid.fy * centre.y());
+                              w - a * grid.fx * centre.x() - b * grid.fy * centre.y());
   return Block{centre.x(),
                centre.y(),
-               mean,
-               centre.x() - half / grid.fx,
-               centre.y() - half / grid.fy,
-               centre.x() + half / grid.fx,
-               centre.y() + half / grid.fy,
+               w,
+               low.x(),
+               low.y(),
+               low.x() + (kBlock - 1) / grid.fx,
+               low.y() + (kBlock - 1) / grid.fy,
                -slope.normalized(),
-               2 * noise(mean) / (mean * mean)};
+               2 * noise(w) / (w * w)};
 }
 
 std::vector<Block> FlatBlocks(const DepthGrid& grid, const InverseDepthNoise& noise) {
@@ -202,12 +217,11 @@ std::vector<Eigen::Vector2d> Outline(const PlaneSearch& search, const Hypothesis
                                      const Plane& table_C, const std::vector<Block>& blocks,
                                      double gap_m, int& n_blocks) {
   const PlaneAxes axes(table_C);
-  std::vector<Eigen::Vector2d> corners;
+  std::vector<Eigen::Vector2d> corners;  // two of each block are enough
   for (const Block& b : blocks) {
     if (!search.On(table, b)) continue;
     ++n_blocks;
-    for (const auto& [x, y] : {std::pair(b.left, b.top), std::pair(b.right, b.top),
-                               std::pair(b.right, b.bottom), std::pair(b.left, b.bottom)}) {
+    for (const auto& [x, y] : {std::pair(b.left, b.top), std::pair(b.right, b.bottom)}) {
       const Eigen::Vector3d ray(x, y, 1);
       const double depth_m = -table_C.offset_m / table_C.normal.dot(ray);
       if (depth_m > 0 && depth_m < 2 / b.w) corners.push_back(axes(ray * depth_m));

@@ -105,7 +105,7 @@ TEST(Perceiver, LooksAnewAtTheObjectThatChanged) {
   CountingPerceiver counting;
   BoxWorld world = ThreeBoxes();
   counting.perceiver.Perceive(world.Render());
-  world.boxes[3].high.z() += 0.015;  // 6 cm tall before: its centroid stays within a centimetre
+  world.boxes[3].high.z() += 0.02;  // 6 cm tall before: its centroid stays within a centimetre
   counting.perceiver.Perceive(world.Render());
   EXPECT_EQ(counting.calls, 4);
 }
