@@ -62,7 +62,7 @@ void JoinFragments(const PatchScene& scene, PatchGroups& groups) {
   }
 }
 
-PatchGroups GroupPatches(const PatchScene& scene) {
+Grouping GroupPatches(const PatchScene& scene) {
   std::vector<SignedEdge> evidence;
   evidence.reserve(scene.edges.size());
   const Neighbours neighbours = FindNeighbours(scene.patches, scene.edges);
@@ -74,10 +74,10 @@ PatchGroups GroupPatches(const PatchScene& scene) {
     sizes.push_back(static_cast<float>(patch.n_cells));
   }
   PatchGroups groups(ClusterSignedGraph(sizes, evidence));
-  JoinInsides(scene, groups);
+  std::vector<Vessel> vessels = JoinInsides(scene, groups);
   JoinAcrossOccluders(scene, groups);
   JoinFragments(scene, groups);
-  return groups;
+  return {std::move(groups), std::move(vessels)};
 }
 
 }  // namespace beckon::perception

@@ -36,10 +36,18 @@ class PatchGroups {
   std::vector<std::vector<int>> members_;
 };
 
+/// An upright round vessel; see vessel_rule.h.
+struct Vessel;
+
+struct Grouping {
+  PatchGroups groups;
+  std::vector<Vessel> vessels;
+};
+
 /// The object of each patch, in four steps: local evidence (grouping_rules.h), insides to their
 /// vessels (vessel_rule.h), what an occluder cut apart (occlusion_rule.h), fragments to what they
 /// touch.
-PatchGroups GroupPatches(const PatchScene& scene);
+Grouping GroupPatches(const PatchScene& scene);
 
 /// Joins groups of less than `kFragment_m2` to the one they share the longest border with.
 void JoinFragments(const PatchScene& scene, PatchGroups& groups);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kAround_m = 0.05;  // of the outline that is looked at too
 constexpr double kNearest_m = 0.1;  // what is nearer has no place in the image
-// A surface this much above the table is no table: sides of objects are kept down to here, where
-// the object as a whole is higher than min_height_m.
-constexpr double kFoot_m = 0.004;
+// Sides of objects are kept down to this part of min_height_m above the table. Smoothing rounds
+// the edges of flat things: half their height is still theirs.
+constexpr double kFoot = 0.4;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void MarkAboveTable(const DepthGrid& grid, const std::vector<float>& inverse_dep
   cells.used.assign(grid.Size(), 0);
   const Eigen::Vector3f n = table_C.normal.cast<float>();
   const auto d = static_cast<float>(table_C.offset_m);
-  const auto least = static_cast<float>(std::min(config.min_height_m, kFoot_m));
+  const auto least = static_cast<float>(kFoot * config.min_height_m);
   const auto most = static_cast<float>(config.max_height_m);
   CellRectangle found{grid.width, grid.height, 0, 0};
   for (int v = part.top; v < part.bottom; ++v) {
@@ -84,7 +84,7 @@ std::vector<int> SelectObjects(const PatchScene& scene, const PatchGroups& group
       const Patch& patch = scene.patches.patches[i];
       const Eigen::Vector3d centre = patch.centre_C.cast<double>();
       n += patch.n_cells;
-      area_m2 += patch.area_m2;
+      area_m2 += patch.seen_m2;
       top_m = std::max(top_m, scene.table_C.Distance(centre));
       if (DepthInside(outline, axes(centre)) > config.border_m) n_inside += patch.n_cells;
     }

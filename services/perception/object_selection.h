@@ -19,9 +19,9 @@ void MarkAboveTable(const DepthGrid& grid, const std::vector<float>& inverse_dep
                     const CellRectangle& part, const Plane& table_C,
                     const SegmentationConfig& config, SurfaceCells& cells);
 
-/// Groups of at least min_object_m2 that reach min_height_m above the table and have a fifth of
-/// their cells deeper within the table's outline than border_m: a wall behind the table, a chair
-/// before it or a tray beside it has not.
+/// Groups of which the camera sees at least min_object_m2 that reach min_height_m above the table
+/// and have a fifth of their cells deeper within the table's outline than border_m: a wall behind
+/// the table, a chair before it or a tray beside it has not.
 std::vector<int> SelectObjects(const PatchScene& scene, const PatchGroups& groups,
                                std::span<const Eigen::Vector2d> outline,
                                const SegmentationConfig& config);

@@ -28,7 +28,7 @@ struct SegmentationConfig {
   SegmentationMethod method = SegmentationMethod::kFast;
   SensorNoise sensor;             // fast only: its thresholds follow from this
   double fast_min_range_m = 0.3;  // fast instead of min_range_m: objects come nearer than tables
-  double min_object_m2 = 0.0004;  // fast only: visible surface, less is no object
+  double min_object_m2 = 0.0003;  // fast only: across the line of sight, less is no object
   double min_range_m = 0.5;       // depth that is used, along the optical axis
   double max_range_m = 3.0;
   double voxel_m = 0.002;          // edge length of the voxels

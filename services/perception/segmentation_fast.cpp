@@ -11,6 +11,7 @@
 #include "services/perception/surface_patches.h"
 #include "services/perception/table_outline.h"
 #include "services/perception/table_planes.h"
+#include "services/perception/vessel_rule.h"
 
 namespace beckon::perception {
 namespace {
@@ -48,6 +49,29 @@ std::vector<uint16_t> LabelCells(const SurfacePatches& patches, const PatchGroup
     if (patch >= 0) label_of_cell[i] = label_of_group[groups.Of(patch)];
   }
   return label_of_cell;
+}
+
+/// Gives the bottoms of vessels, which are too near the table to be surface cells, to the vessels.
+void LabelBottoms(const PatchScene& scene, const PatchGroups& groups,
+                  const std::vector<Vessel>& vessels, std::vector<uint16_t>& label_of_cell) {
+  if (vessels.empty()) return;
+  std::vector<uint16_t> label_of_group(groups.Count(), 0);
+  for (size_t i = 0; i < label_of_cell.size(); ++i) {
+    const int patch = scene.patches.patch_of_cell[i];
+    if (patch >= 0) label_of_group[groups.Of(patch)] = label_of_cell[i];
+  }
+  const PlaneAxes axes(scene.table_C);
+  const CellRectangle& part = scene.cells.part;
+  for (int v = part.top; v < part.bottom; ++v) {
+    for (int u = part.left; u < part.right; ++u) {
+      const size_t i = scene.grid.Index(u, v);
+      const float w = scene.cells.inverse_depth[i];
+      if (w <= 0 || scene.cells.used[i]) continue;
+      const Eigen::Vector3f p = scene.grid.Point(static_cast<float>(u), static_cast<float>(v), w);
+      const int vessel = BottomOf(vessels, axes(p.cast<double>()));
+      if (vessel >= 0) label_of_cell[i] = label_of_group[groups.Of(vessels[vessel].patch)];
+    }
+  }
 }
 
 /// Numbers the objects anew, the one with most pixels first, and keeps the first `most`.
@@ -102,11 +126,12 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   const std::vector<PatchEdge> edges = FindEdges(grid, cells, patches, config.sensor);
   SteadyNormals(edges, patches);
   const PatchScene scene{grid, cells, patches, edges, *table.table_C, config.sensor};
-  const PatchGroups groups = GroupPatches(scene);
+  const auto [groups, vessels] = GroupPatches(scene);
   finished("grouping");
   const std::vector<int> objects = SelectObjects(scene, groups, table.outline, config);
-  LabelPixels(image, grid, cells, LabelCells(patches, groups, objects), config.sensor,
-              result.labels);
+  std::vector<uint16_t> label_of_cell = LabelCells(patches, groups, objects);
+  LabelBottoms(scene, groups, vessels, label_of_cell);
+  LabelPixels(image, grid, cells, std::move(label_of_cell), config.sensor, result.labels);
   NumberBySize(static_cast<int>(objects.size()), config.max_objects, result);
   finished("labels");
   return result;

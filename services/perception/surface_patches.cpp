@@ -189,7 +189,8 @@ void FitPatch(const DepthGrid& grid, const PatchSums& s, const SensorNoise& sens
   const double z = 1 / w;
   patch.centre_C = ray * static_cast<float>(z);
   const double facing = std::max(0.1f, std::abs(patch.normal_C.dot(ray.normalized())));
-  patch.area_m2 = static_cast<float>(s.n * z * z / (grid.fx * grid.fy * facing));
+  patch.seen_m2 = static_cast<float>(s.n * z * z / (grid.fx * grid.fy));
+  patch.area_m2 = static_cast<float>(patch.seen_m2 / facing);
   // Neighbouring readings err together: about one in four is independent.
   const double width_m = std::sqrt(std::max(thin, 0.1)) * z / grid.fx;
   patch.normal_sigma = static_cast<float>(sensor.Sigma(z) * facing * facing /

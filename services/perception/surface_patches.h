@@ -22,9 +22,10 @@ struct Patch {
   int n_cells = 0;
   float u = 0, v = 0;  // centroid in the grid, cells
   Eigen::Vector3f slope{0, 0, 0};
-  Eigen::Vector3f centre_C{0, 0, 0};   // on the plane, m
-  Eigen::Vector3f normal_C{0, 0, -1};  // towards the camera
-  float area_m2 = 0;
+  Eigen::Vector3f centre_C{0, 0, 0};          // on the plane, m
+  Eigen::Vector3f normal_C{0, 0, -1};         // towards the camera
+  float area_m2 = 0;                          // of the surface
+  float seen_m2 = 0;                          // across the line of sight
   Eigen::Vector3f steady_normal_C{0, 0, -1};  // averaged over neighbours that hardly differ
   float normal_sigma = 0;                     // rad, of the normal by the sensor's noise
   Eigen::Vector3f colour{0, 0, 0};

@@ -4,30 +4,22 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <sstream>
 
+#include "services/perception/flat_blocks.h"
 #include "services/perception/table_outline.h"
 
 namespace beckon::perception {
 namespace {
 
-constexpr int kBlock = 6;           // cells along a block's edge
-constexpr float kFewestCells = 20;  // with depth, of a block
 constexpr int kHypotheses = 250;
 constexpr size_t kCounted = 400;    // about so many blocks judge a hypothesis
-constexpr float kFlat = 3;          // standard deviations that a flat block's cells may be off
 constexpr float kParallel = 0.96f;  // cosine between normals on one plane (16 degrees)
+constexpr int kMostSteps = 20;      // between neighbouring blocks
 constexpr double kHigherShare = 0.05;
-
-/// A block whose cells lie on a plane: w = slope · (x, y, 1) with (x, y, 1) the ray.
-struct Block {
-  float x, y, w;                   // its centre
-  float left, top, right, bottom;  // in ray coordinates
-  Eigen::Vector3f normal;          // towards the camera
-  float noise_m;                   // twice the standard deviation of the depth
-};
 
 /// A plane as n·p + d = 0 with the normal towards the camera, d > 0.
 struct Hypothesis {
@@ -56,76 +48,6 @@ struct RayFit {
     return Hypothesis{(-slope / norm).cast<float>(), static_cast<float>(1 / norm)};
   }
 };
-
-/// Sums over the cells of a block that have depth; u and v count from its middle.
-struct BlockSums {
-  float n = 0, u = 0, v = 0, w = 0, uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, ww = 0;
-};
-
-BlockSums SumBlock(const DepthGrid& grid, int left, int top) {
-  BlockSums s;
-  for (int y = 0; y < kBlock; ++y) {
-    const float* row = &grid.inverse_depth[grid.Index(left, top + y)];
-    const float v = static_cast<float>(y) - (kBlock - 1) / 2.0f;
-    for (int x = 0; x < kBlock; ++x) {
-      const float w = row[x], one = w > 0 ? 1.0f : 0.0f;
-      const float u = static_cast<float>(x) - (kBlock - 1) / 2.0f;
-      s.n += one, s.w += w, s.u += one * u, s.v += one * v;
-      s.uu += one * u * u, s.uv += one * u * v, s.vv += one * v * v;
-      s.uw += u * w, s.vw += v * w, s.ww += w * w;
-    }
-  }
-  return s;
-}
-
-std::optional<Block> FitBlock(const DepthGrid& grid, int left, int top,
-                              const InverseDepthNoise& noise) {
-  const BlockSums s = SumBlock(grid, left, top);
-  if (s.n < kFewestCells) return std::nullopt;
-  const float u = s.u / s.n, v = s.v / s.n, w = s.w / s.n;
-  const float uu = s.uu / s.n - u * u, uv = s.uv / s.n - u * v, vv = s.vv / s.n - v * v;
-  const float uw = s.uw / s.n - u * w, vw = s.vw / s.n - v * w;
-  const float det = uu * vv - uv * uv;
-  if (det < 1) return std::nullopt;  // all on a line
-  const float a = (uw * vv - vw * uv) / det, b = (vw * uu - uw * uv) / det;
-  const float limit = kFlat * noise(w);
-  float residual = 0;
-  for (int y = 0; y < kBlock; ++y) {
-    const float* row = &grid.inverse_depth[grid.Index(left, top + y)];
-    const float from_v = static_cast<float>(y) - (kBlock - 1) / 2.0f - v;
-    for (int x = 0; x < kBlock; ++x) {
-      const float from_u = static_cast<float>(x) - (kBlock - 1) / 2.0f - u;
-      const float off = row[x] > 0 ? row[x] - w - a * from_u - b * from_v : 0;
-      residual += off * off;
-    }
-  }
-  if (residual > s.n * limit * limit) return std::nullopt;
-  const float half = (kBlock - 1) / 2.0f;
-  const Eigen::Vector3f low = grid.Ray(static_cast<float>(left), static_cast<float>(top));
-  const Eigen::Vector3f centre =
-      grid.Ray(static_cast<float>(left) + half + u, static_cast<float>(top) + half + v);
-  const Eigen::Vector3f slope(a * grid.fx, b * grid.fy,
-                              w - a * grid.fx * centre.x() - b * grid.fy * centre.y());
-  return Block{centre.x(),
-               centre.y(),
-               w,
-               low.x(),
-               low.y(),
-               low.x() + (kBlock - 1) / grid.fx,
-               low.y() + (kBlock - 1) / grid.fy,
-               -slope.normalized(),
-               2 * noise(w) / (w * w)};
-}
-
-std::vector<Block> FlatBlocks(const DepthGrid& grid, const InverseDepthNoise& noise) {
-  std::vector<Block> blocks;
-  for (int v = 0; v + kBlock <= grid.height; v += kBlock) {
-    for (int u = 0; u + kBlock <= grid.width; u += kBlock) {
-      if (auto block = FitBlock(grid, u, v, noise)) blocks.push_back(*block);
-    }
-  }
-  return blocks;
-}
 
 /// Which planes are sought.
 struct PlaneQuery {
@@ -213,21 +135,36 @@ std::optional<Hypothesis> FindHigher(const PlaneSearch& search, const Hypothesis
   return n >= kHigherShare * static_cast<double>(blocks.size()) ? plane : std::nullopt;
 }
 
+/// Adds points from a to b, no further apart than `step`; not b itself.
+void AddLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double step,
+             std::vector<Eigen::Vector2d>& points) {
+  const int n = std::clamp(static_cast<int>((b - a).norm() / step) + 1, 1, kMostSteps);
+  for (int i = 0; i < n; ++i) points.push_back(a + (b - a) * i / n);
+}
+
+/// Blocks on the table that are neighbours in the image belong together however far apart they are.
 std::vector<Eigen::Vector2d> Outline(const PlaneSearch& search, const Hypothesis& table,
                                      const Plane& table_C, const std::vector<Block>& blocks,
                                      double gap_m, int& n_blocks) {
   const PlaneAxes axes(table_C);
-  std::vector<Eigen::Vector2d> corners;  // two of each block are enough
+  auto project = [&](float x, float y) {
+    const Eigen::Vector3d ray(x, y, 1);
+    return axes(ray * (-table_C.offset_m / table_C.normal.dot(ray)));
+  };
+  std::map<std::pair<int, int>, Eigen::Vector2d> corner;  // upper left, of those on the table
+  std::vector<Eigen::Vector2d> points;
   for (const Block& b : blocks) {
     if (!search.On(table, b)) continue;
-    ++n_blocks;
-    for (const auto& [x, y] : {std::pair(b.left, b.top), std::pair(b.right, b.bottom)}) {
-      const Eigen::Vector3d ray(x, y, 1);
-      const double depth_m = -table_C.offset_m / table_C.normal.dot(ray);
-      if (depth_m > 0 && depth_m < 2 / b.w) corners.push_back(axes(ray * depth_m));
+    const Eigen::Vector2d upper_left = project(b.left, b.top);
+    corner[{b.row, b.column}] = upper_left;
+    AddLine(project(b.right, b.bottom), upper_left, gap_m / 2, points);
+    for (const auto& other : {std::pair(b.row, b.column - 1), std::pair(b.row - 1, b.column)}) {
+      const auto found = corner.find(other);
+      if (found != corner.end()) AddLine(upper_left, found->second, gap_m / 2, points);
     }
   }
-  return ConvexHull(LargestPiece(corners, gap_m));
+  n_blocks = static_cast<int>(corner.size());
+  return ConvexHull(LargestPiece(points, gap_m));
 }
 
 double TiltDeg(const Eigen::Vector3f& normal) {
@@ -260,7 +197,7 @@ TablePlane FindTablePlane(const DepthGrid& grid, const SegmentationConfig& confi
   const PlaneSearch search(blocks, config);
   std::vector<int> all(blocks.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  const int block_px = kBlock * grid.pixels;
+  const int block_px = kBlockCells * grid.pixels;
   const int least = std::max(3, config.plane_min_points / (block_px * block_px));
 
   const double tilt = config.table_max_tilt_deg * std::numbers::pi / 180;

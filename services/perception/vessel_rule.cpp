@@ -197,8 +197,9 @@ bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
   return slope > kUpright || from_wall_m < kThickWall_m + kThickWall * rim_m;
 }
 
-void JoinInsides(const PatchScene& scene, PatchGroups& groups) {
+std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
   const PlaneAxes axes(scene.table_C);
+  std::vector<Vessel> vessels;
   std::vector<int> order;
   for (int g = 0; g < groups.Count(); ++g) order.push_back(g);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -215,9 +216,24 @@ void JoinInsides(const PatchScene& scene, PatchGroups& groups) {
     }
     for (int other = 0; other < groups.Count(); ++other) {
       const auto n = static_cast<int>(groups.Members(other).size());
-      if (other != g && n > 0 && n_inside[other] * 10 >= n * 8) groups.Join(g, other);
+      if (other == g || n == 0 || n_inside[other] * 10 < n * 8) continue;
+      if (vessels.empty() || groups.Of(vessels.back().patch) != g) {
+        vessels.push_back({groups.Members(g).front(), *wall});
+      }
+      groups.Join(g, other);
     }
   }
+  return vessels;
+}
+
+int BottomOf(const std::vector<Vessel>& vessels, const Eigen::Vector2d& place) {
+  for (size_t i = 0; i < vessels.size(); ++i) {
+    const double radius_m = vessels[i].wall.Radius(0) - kTolerance_m;
+    if (radius_m > 0 && (place - vessels[i].wall.centre).norm() < radius_m) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
 }
 
 }  // namespace beckon::perception

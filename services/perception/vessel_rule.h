@@ -21,6 +21,12 @@ struct Wall {
   }
 };
 
+/// A vessel whose inside is seen.
+struct Vessel {
+  int patch = 0;  // one of its own
+  Wall wall;
+};
+
 /// Fits an upright body of revolution to patches: p = c + (r0 + r1 h + r2 h^2) n, with p and n the
 /// patch's centre and normal seen from above and h its height; linear least squares. Nothing where
 /// the patches do not fit within the noise, or too little of the circle is seen to be sure.
@@ -32,6 +38,10 @@ bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, 
 
 /// What lies below the rim of a round vessel and within it belongs to the vessel: cups, bowls,
 /// mugs, pots. So does what they hold, unless it sticks out.
-void JoinInsides(const PatchScene& scene, PatchGroups& groups);
+std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups);
+
+/// The number, from 0, of the vessel that a point near the table's height is the bottom of, or -1:
+/// whoever sees it looks through the rim.
+int BottomOf(const std::vector<Vessel>& vessels, const Eigen::Vector2d& place);
 
 }  // namespace beckon::perception
