@@ -1,4 +1,6 @@
 // beckon-perception: sees the table and what stands on it, on the bus or in a file.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -55,6 +57,9 @@ Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Every frame takes the same few megabytes; faulting them in anew costs as much as segmenting.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
   CLI::App app("Sees the table and the objects on it", "beckon-perception");
   Options options;
   AddOptions(app, options);

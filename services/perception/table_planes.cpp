@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -135,11 +134,11 @@ std::optional<Hypothesis> FindHigher(const PlaneSearch& search, const Hypothesis
   return n >= kHigherShare * static_cast<double>(blocks.size()) ? plane : std::nullopt;
 }
 
-/// Adds points from a to b, no further apart than `step`; not b itself.
-void AddLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double step,
-             std::vector<Eigen::Vector2d>& points) {
-  const int n = std::clamp(static_cast<int>((b - a).norm() / step) + 1, 1, kMostSteps);
-  for (int i = 0; i < n; ++i) points.push_back(a + (b - a) * i / n);
+/// Adds points between a and b where these are further apart than `step`.
+void AddBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double step,
+                std::vector<Eigen::Vector2d>& points) {
+  const int n = std::min(static_cast<int>((b - a).norm() / step) + 1, kMostSteps);
+  for (int i = 1; i < n; ++i) points.push_back(a + (b - a) * i / n);
 }
 
 /// Blocks on the table that are neighbours in the image belong together however far apart they are.
@@ -151,19 +150,26 @@ std::vector<Eigen::Vector2d> Outline(const PlaneSearch& search, const Hypothesis
     const Eigen::Vector3d ray(x, y, 1);
     return axes(ray * (-table_C.offset_m / table_C.normal.dot(ray)));
   };
-  std::map<std::pair<int, int>, Eigen::Vector2d> corner;  // upper left, of those on the table
+  int n_columns = 0;
+  for (const Block& b : blocks) n_columns = std::max(n_columns, b.column + 1);
+  const size_t n_places =
+      blocks.empty() ? 0 : static_cast<size_t>(blocks.back().row + 1) * n_columns;
+  std::vector<int> at(n_places, -1);  // index of the upper left corner of the block there
   std::vector<Eigen::Vector2d> points;
   for (const Block& b : blocks) {
     if (!search.On(table, b)) continue;
-    const Eigen::Vector2d upper_left = project(b.left, b.top);
-    corner[{b.row, b.column}] = upper_left;
-    AddLine(project(b.right, b.bottom), upper_left, gap_m / 2, points);
-    for (const auto& other : {std::pair(b.row, b.column - 1), std::pair(b.row - 1, b.column)}) {
-      const auto found = corner.find(other);
-      if (found != corner.end()) AddLine(upper_left, found->second, gap_m / 2, points);
+    ++n_blocks;
+    const size_t place = static_cast<size_t>(b.row) * n_columns + b.column;
+    const Eigen::Vector2d corner = project(b.left, b.top), opposite = project(b.right, b.bottom);
+    at[place] = static_cast<int>(points.size());
+    points.push_back(corner);
+    points.push_back(opposite);
+    AddBetween(corner, opposite, gap_m / 2, points);
+    for (const int other :
+         {b.column > 0 ? at[place - 1] : -1, b.row > 0 ? at[place - n_columns] : -1}) {
+      if (other >= 0) AddBetween(corner, points[other], gap_m / 2, points);
     }
   }
-  n_blocks = static_cast<int>(corner.size());
   return ConvexHull(LargestPiece(points, gap_m));
 }
 
