@@ -9,7 +9,7 @@ namespace beckon::perception {
 namespace {
 
 constexpr float kSameFace = 0.978f;  // cosine of 12 degrees
-constexpr size_t kFewestPatches = 2;
+constexpr size_t kFewestPatches = 3;
 constexpr float kFlat = 1.5f;  // standard deviations that patches may be off
 
 }  // namespace

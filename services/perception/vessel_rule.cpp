@@ -189,12 +189,12 @@ bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
   const Eigen::Vector3d p = patch.centre_C.cast<double>();
   const double height_m = scene.table_C.Distance(p);
   if (height_m > wall.rim_height_m + kTolerance_m) return false;
-  const double rim_m = wall.Radius(wall.rim_height_m);
   const double distance_m = (axes(p) - wall.centre).norm();
-  if (distance_m > rim_m + kTolerance_m) return false;
+  const double outside_m = distance_m - wall.Radius(height_m);
+  if (outside_m > kTolerance_m) return false;
   const double slope = patch.normal_C.cast<double>().dot(scene.table_C.normal);
-  const double from_wall_m = std::abs(distance_m - wall.Radius(height_m));
-  return slope > kUpright || from_wall_m < kThickWall_m + kThickWall * rim_m;
+  const double thick_m = kThickWall_m + kThickWall * wall.Radius(wall.rim_height_m);
+  return slope > kUpright || -outside_m < thick_m;
 }
 
 std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
