@@ -36,13 +36,9 @@ void TellTable(const TablePlane& table, Segmentation& result) {
   }
 }
 
-/// The number of each cell's group among the objects, from 1.
+/// The label of each cell's group; 0 = none.
 std::vector<uint16_t> LabelCells(const SurfacePatches& patches, const PatchGroups& groups,
-                                 const std::vector<int>& objects) {
-  std::vector<uint16_t> label_of_group(groups.Count(), 0);
-  for (size_t k = 0; k < objects.size(); ++k) {
-    label_of_group[objects[k]] = static_cast<uint16_t>(k + 1);
-  }
+                                 const std::vector<uint16_t>& label_of_group) {
   std::vector<uint16_t> label_of_cell(patches.patch_of_cell.size(), 0);
   for (size_t i = 0; i < label_of_cell.size(); ++i) {
     const int patch = patches.patch_of_cell[i];
@@ -51,25 +47,37 @@ std::vector<uint16_t> LabelCells(const SurfacePatches& patches, const PatchGroup
   return label_of_cell;
 }
 
-/// Gives the bottoms of vessels, which are too near the table to be surface cells, to the vessels.
-void LabelBottoms(const PatchScene& scene, const PatchGroups& groups,
-                  const std::vector<Vessel>& vessels, std::vector<uint16_t>& label_of_cell) {
-  if (vessels.empty()) return;
-  std::vector<uint16_t> label_of_group(groups.Count(), 0);
-  for (size_t i = 0; i < label_of_cell.size(); ++i) {
-    const int patch = scene.patches.patch_of_cell[i];
-    if (patch >= 0) label_of_group[groups.Of(patch)] = label_of_cell[i];
+/// The rectangle that the centres of patches span.
+CellRectangle PartOf(const PatchScene& scene, const std::vector<int>& members) {
+  CellRectangle part{scene.grid.width, scene.grid.height, 0, 0};
+  for (int i : members) {
+    const Patch& patch = scene.patches.patches[i];
+    part.left = std::min(part.left, static_cast<int>(patch.u));
+    part.top = std::min(part.top, static_cast<int>(patch.v));
+    part.right = std::max(part.right, static_cast<int>(patch.u) + 1);
+    part.bottom = std::max(part.bottom, static_cast<int>(patch.v) + 1);
   }
+  return part;
+}
+
+/// Gives the bottoms of vessels, which are too near the table to be surface cells, to the vessels:
+/// they are seen between cells of theirs.
+void LabelBottoms(const PatchScene& scene, const PatchGroups& groups,
+                  const std::vector<Vessel>& vessels, const std::vector<uint16_t>& label_of_group,
+                  std::vector<uint16_t>& label_of_cell) {
   const PlaneAxes axes(scene.table_C);
-  const CellRectangle& part = scene.cells.part;
-  for (int v = part.top; v < part.bottom; ++v) {
-    for (int u = part.left; u < part.right; ++u) {
-      const size_t i = scene.grid.Index(u, v);
-      const float w = scene.cells.inverse_depth[i];
-      if (w <= 0 || scene.cells.used[i]) continue;
-      const Eigen::Vector3f p = scene.grid.Point(static_cast<float>(u), static_cast<float>(v), w);
-      const int vessel = BottomOf(vessels, axes(p.cast<double>()));
-      if (vessel >= 0) label_of_cell[i] = label_of_group[groups.Of(vessels[vessel].patch)];
+  for (const Vessel& vessel : vessels) {
+    const int group = groups.Of(vessel.patch);
+    const CellRectangle part = PartOf(scene, groups.Members(group));
+    const uint16_t label = label_of_group[group];
+    for (int v = part.top; v < part.bottom; ++v) {
+      for (int u = part.left; u < part.right; ++u) {
+        const size_t i = scene.grid.Index(u, v);
+        const float w = scene.cells.inverse_depth[i];
+        if (w <= 0 || scene.cells.used[i]) continue;
+        const Eigen::Vector3f p = scene.grid.Point(static_cast<float>(u), static_cast<float>(v), w);
+        if (IsBottom(vessel, axes(p.cast<double>()))) label_of_cell[i] = label;
+      }
     }
   }
 }
@@ -129,8 +137,12 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   const auto [groups, vessels] = GroupPatches(scene);
   finished("grouping");
   const std::vector<int> objects = SelectObjects(scene, groups, table.outline, config);
-  std::vector<uint16_t> label_of_cell = LabelCells(patches, groups, objects);
-  LabelBottoms(scene, groups, vessels, label_of_cell);
+  std::vector<uint16_t> label_of_group(groups.Count(), 0);
+  for (size_t k = 0; k < objects.size(); ++k) {
+    label_of_group[objects[k]] = static_cast<uint16_t>(k + 1);
+  }
+  std::vector<uint16_t> label_of_cell = LabelCells(patches, groups, label_of_group);
+  LabelBottoms(scene, groups, vessels, label_of_group, label_of_cell);
   LabelPixels(image, grid, cells, std::move(label_of_cell), config.sensor, result.labels);
   NumberBySize(static_cast<int>(objects.size()), config.max_objects, result);
   finished("labels");

@@ -58,7 +58,7 @@ std::vector<Seed> PlaceSeeds(const DepthGrid& grid, const SurfaceCells& cells) {
 /// Gives every used cell in reach of a seed to the seed that is nearest in place, plane and normal.
 void Assign(const DepthGrid& grid, const SurfaceCells& cells, const InverseDepthNoise& noise,
             const std::vector<Seed>& seeds, std::vector<float>& distance, std::vector<int>& owner) {
-  std::fill(distance.begin(), distance.end(), 1e30f);
+  for (size_t i = 0; i < distance.size(); ++i) distance[i] = cells.used[i] ? 1e30f : -1.0f;
   std::fill(owner.begin(), owner.end(), SurfacePatches::kNone);
   constexpr float kPlace = 1.0f / (kPatchCells * kPatchCells);
   for (size_t s = 0; s < seeds.size(); ++s) {
@@ -79,16 +79,15 @@ void Assign(const DepthGrid& grid, const SurfaceCells& cells, const InverseDepth
       const float dv = static_cast<float>(v) - seed.v;
       const float* w = &cells.inverse_depth[row];
       const float *x = &cells.normal_x[row], *y = &cells.normal_y[row], *z = &cells.normal_z[row];
-      const uint8_t* used = &cells.used[row];
-      float* best = &distance[row];
-      int* own = &owner[row];
+      float* __restrict best = &distance[row];
+      int* __restrict own = &owner[row];
       for (int k = 0; k < u1 - u0; ++k) {
         const float du = static_cast<float>(u0 + k) - seed.u;
         const float off = (w[k] - w0 - step * static_cast<float>(k)) * per_sigma;
         const float turned = 2 - 2 * (nx * x[k] + ny * y[k] + nz * z[k]);
         const float d =
             kPlace * (du * du + dv * dv) + kNormalWeight * turned + kPlaneWeight * off * off;
-        const bool mine = (used[k] != 0) & (d < best[k]) & (std::abs(off) < kOffPlane);
+        const bool mine = (d < best[k]) & (std::abs(off) < kOffPlane);
         best[k] = mine ? d : best[k];
         own[k] = mine ? static_cast<int>(s) : own[k];
       }

@@ -226,14 +226,8 @@ std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
   return vessels;
 }
 
-int BottomOf(const std::vector<Vessel>& vessels, const Eigen::Vector2d& place) {
-  for (size_t i = 0; i < vessels.size(); ++i) {
-    const double radius_m = vessels[i].wall.Radius(0) - kTolerance_m;
-    if (radius_m > 0 && (place - vessels[i].wall.centre).norm() < radius_m) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
+bool IsBottom(const Vessel& vessel, const Eigen::Vector2d& place) {
+  return (place - vessel.wall.centre).norm() < vessel.wall.Radius(0) - kTolerance_m;
 }
 
 }  // namespace beckon::perception

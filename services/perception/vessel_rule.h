@@ -40,8 +40,8 @@ bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, 
 /// mugs, pots. So does what they hold, unless it sticks out.
 std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups);
 
-/// The number, from 0, of the vessel that a point near the table's height is the bottom of, or -1:
-/// whoever sees it looks through the rim.
-int BottomOf(const std::vector<Vessel>& vessels, const Eigen::Vector2d& place);
+/// Whether a place near the table's height is on the bottom of a vessel: whoever sees it looks
+/// through the rim.
+bool IsBottom(const Vessel& vessel, const Eigen::Vector2d& place);
 
 }  // namespace beckon::perception
