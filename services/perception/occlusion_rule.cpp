@@ -16,7 +16,7 @@ namespace {
 constexpr float kCoplanar = 0.985f;    // cosine of 10 degrees
 constexpr float kOnSurface = 1.5f;     // standard deviations of a reading, root mean square
 constexpr float kNearer = 4;           // standard deviations that an occluder is in front
-constexpr float kLargest_m = 0.30f;    // an object
+constexpr float kLargest_m = 0.36f;    // an object
 constexpr float kLeastOverlap = 0.5f;  // of the smaller part, across the gap
 constexpr int kLeastHidden = 2;        // cells along which an occluder borders what it hides
 constexpr size_t kFewestRound = 3;     // patches of a part of a cylinder
