@@ -134,8 +134,8 @@ std::optional<Hypothesis> FindHigher(const PlaneSearch& search, const Hypothesis
   return n >= kHigherShare * static_cast<double>(blocks.size()) ? plane : std::nullopt;
 }
 
-/// Adds points between a and b where these are further apart than `step`.
-void AddBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double step,
+/// Adds points between a and b where these are further apart than `step`. `b` may be of `points`.
+void AddBetween(const Eigen::Vector2d& a, Eigen::Vector2d b, double step,
                 std::vector<Eigen::Vector2d>& points) {
   const int n = std::min(static_cast<int>((b - a).norm() / step) + 1, kMostSteps);
   for (int i = 1; i < n; ++i) points.push_back(a + (b - a) * i / n);
