@@ -30,11 +30,13 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   if (perception.segmentation.table_C) {
     perception.X_WC = WorldFromTable(*perception.segmentation.table_C);
   }
-  auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC);
-  const auto ids = tracker_.Update(shapes);
+  const SteadyObjects steady =
+      memory_.Update(image, config_.segmentation.max_objects, perception.segmentation);
+  auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC, steady.silhouettes);
+  outlines_.Draw(image.width, steady.ids, shapes);
   for (size_t i = 0; i < shapes.size(); ++i) {
     PerceivedObject object;
-    object.id = ids[i];
+    object.id = steady.ids[i];
     object.shape = std::move(shapes[i]);
     perception.objects.push_back(std::move(object));
   }
@@ -93,8 +95,7 @@ void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
   for (auto& object : perception.objects) {
     object.categorised = !object.category.probabilities.empty();
   }
-  std::erase_if(remembered_,
-                [this](const auto& entry) { return !tracker_.Remembers(entry.first); });
+  std::erase_if(remembered_, [this](const auto& entry) { return !memory_.Remembers(entry.first); });
 }
 
 }  // namespace beckon::perception

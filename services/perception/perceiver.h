@@ -9,8 +9,9 @@
 
 #include "services/perception/categoriser.h"
 #include "services/perception/object_extraction.h"
+#include "services/perception/object_memory.h"
+#include "services/perception/object_outline.h"
 #include "services/perception/segmentation.h"
-#include "services/perception/tracker.h"
 
 namespace beckon::perception {
 
@@ -46,7 +47,9 @@ class Perceiver {
  public:
   /// `categorise` may be empty: objects stay uncategorised.
   Perceiver(const PerceiverConfig& config, Categorise categorise)
-      : config_(config), categorise_(std::move(categorise)), tracker_(config.tracker) {}
+      : config_(config),
+        categorise_(std::move(categorise)),
+        memory_(config.tracker, config.segmentation.sensor) {}
   /// `categoriser` may be null; it must outlive this.
   Perceiver(const PerceiverConfig& config, const Categoriser* categoriser);
 
@@ -65,7 +68,8 @@ class Perceiver {
 
   PerceiverConfig config_;
   Categorise categorise_;
-  Tracker tracker_;
+  ObjectMemory memory_;
+  OutlineMemory outlines_;
   std::map<int, Remembered> remembered_;
 };
 

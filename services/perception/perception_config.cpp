@@ -51,7 +51,11 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
 void ReadTracker(ConfigTable tracker, PerceiverConfig& config) {
   tracker.Get("max_step_m", config.tracker.max_step_m, 0.001, 1);
   tracker.Get("min_overlap", config.tracker.min_overlap, 0.01, 1);
+  tracker.Get("max_jump_m", config.tracker.max_jump_m, 0, 10);
+  tracker.Get("min_likeness", config.tracker.min_likeness, 0, 1);
   tracker.Get("forget_after_frames", config.tracker.forget_after_frames, 1, 1'000'000);
+  tracker.Get("steady", config.tracker.steady);
+  tracker.Get("settle_after_frames", config.tracker.settle_after_frames, 1, 100);
   tracker.Get("recategorise_step_m", config.recategorise_step_m, 0, 1);
   tracker.Get("recategorise_growth", config.recategorise_growth, 0, 10);
 }

@@ -47,6 +47,11 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   EXPECT_EQ(read->perceiver.tracker.min_overlap, defaults.perceiver.tracker.min_overlap);
   EXPECT_EQ(read->perceiver.tracker.forget_after_frames,
             defaults.perceiver.tracker.forget_after_frames);
+  EXPECT_EQ(read->perceiver.tracker.max_jump_m, defaults.perceiver.tracker.max_jump_m);
+  EXPECT_EQ(read->perceiver.tracker.min_likeness, defaults.perceiver.tracker.min_likeness);
+  EXPECT_EQ(read->perceiver.tracker.steady, defaults.perceiver.tracker.steady);
+  EXPECT_EQ(read->perceiver.tracker.settle_after_frames,
+            defaults.perceiver.tracker.settle_after_frames);
   EXPECT_EQ(read->perceiver.recategorise_step_m, defaults.perceiver.recategorise_step_m);
   EXPECT_EQ(read->perceiver.recategorise_growth, defaults.perceiver.recategorise_growth);
   EXPECT_EQ(read->perceiver.threads, defaults.perceiver.threads);
