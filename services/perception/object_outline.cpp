@@ -68,7 +68,7 @@ std::vector<std::array<int16_t, 2>> DrawOutline(int width, std::span<const uint3
       [](const auto& a, const auto& b) { return std::abs(TwiceArea(a)) < std::abs(TwiceArea(b)); });
   if (largest == contours.end()) return {};
   std::vector<cv::Point> polygon;
-  for (double tolerance_px = 1;; tolerance_px *= 1.5) {
+  for (double tolerance_px = 0.6;; tolerance_px *= 1.3) {
     cv::approxPolyDP(*largest, polygon, tolerance_px, true);
     if (static_cast<int>(polygon.size()) <= kMaxOutline) break;
   }
