@@ -34,7 +34,13 @@ void AddOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 64));
   app.add_option("--json", o.offline.json_file, "The result (default: standard output)");
   app.add_option("--labels", o.offline.labels_file, "16-bit PNG of the objects' pixels");
-  app.add_option("--picture", o.offline.picture_file, "The image with named objects");
+  auto* picture = app.add_option("--picture", o.offline.picture_file,
+                                 "The image with named objects and the time of each step");
+  app.add_option("--stage", o.offline.stage,
+                 "The picture shows what this step of segmentation made: grid, table, surface, "
+                 "patches, grouping, labels (fast); range_voxels, normals (if used), plane, hull, "
+                 "prism, clusters, labels (reference)")
+      ->needs(picture);
   app.add_option("--repeat", o.offline.repeat, "Compute this often, tell the median times")
       ->check(CLI::Range(1, 100000));
   for (const char* name : {"--json", "--labels", "--picture", "--repeat"}) {

@@ -136,7 +136,12 @@ Status PerceiveFile(const OfflineOptions& options, const PerceptionConfig& confi
     if (Status s = WriteLabels(options.labels_file, *image, timed.perception); !s) return s;
   }
   if (!options.picture_file.empty()) {
-    if (Status s = WritePicture(options.picture_file, *image, timed.perception); !s) return s;
+    const Status s =
+        options.stage.empty()
+            ? WritePicture(options.picture_file, *image, timed.perception)
+            : WriteStagePicture(options.picture_file, *image, config.perceiver.segmentation,
+                                timed.perception, options.stage);
+    if (!s) return s;
   }
   return {};
 }

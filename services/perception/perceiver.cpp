@@ -22,9 +22,9 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   Perception perception;
   const Stopwatch whole;
   double told_ms = 0;
-  perception.segmentation = Segment(image, config_.segmentation, [&](const char* step) {
+  perception.segmentation = Segment(image, config_.segmentation, [&](const StepDone& step) {
     const double now_ms = whole.Milliseconds();
-    perception.steps_ms.emplace_back(step, now_ms - told_ms);
+    perception.steps_ms.emplace_back(step.name, now_ms - told_ms);
     told_ms = now_ms;
   });
   if (perception.segmentation.table_C) {

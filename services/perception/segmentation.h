@@ -64,8 +64,18 @@ struct Segmentation {
   int n_left_out = 0;      // objects beyond max_objects
 };
 
-/// Told the name of each step when it is done, for whoever measures time.
-using StepObserver = std::function<void(const char* step)>;
+/// A step that is done. `regions`, where the step has any to show, numbers the parts that the image
+/// is in by now: per cell of `cell_px` x `cell_px` pixels, row-major, what remains at the right and
+/// lower border left out; 0 = in none. It costs time only where it is called, and may be called
+/// only while the observer is.
+struct StepDone {
+  const char* name;
+  int cell_px = 1;
+  std::function<std::vector<uint32_t>()> regions = {};
+};
+
+/// Told each step when it is done, for whoever measures time or draws pictures.
+using StepObserver = std::function<void(const StepDone& step)>;
 
 /// Segments by the configured method.
 Segmentation Segment(const RgbdImage& image, const SegmentationConfig& config,

@@ -23,6 +23,21 @@ std::string TooFewPoints(const DepthGrid& grid, const SegmentationConfig& config
   return text.str();
 }
 
+/// A number for each cell.
+template <typename Number>
+std::vector<uint32_t> OfCells(const DepthGrid& grid, Number number) {
+  std::vector<uint32_t> of_cells(grid.Size());
+  for (size_t i = 0; i < of_cells.size(); ++i) of_cells[i] = static_cast<uint32_t>(number(i));
+  return of_cells;
+}
+
+/// Bands of equal inverse depth, which follow the sensor's steps; 0 = no depth.
+int DepthBand(const DepthGrid& grid, size_t cell) {
+  constexpr float kBands = 25;  // per 1/m: a band is 4 cm deep at 1 m
+  const float w = grid.inverse_depth[cell];
+  return w > 0 ? 1 + static_cast<int>(kBands * w) : 0;
+}
+
 /// Takes the found table into the result.
 void TellTable(const TablePlane& table, Segmentation& result) {
   result.table_C = table.table_C;
@@ -103,15 +118,17 @@ void NumberBySize(int n_labels, int most, Segmentation& result) {
 
 Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& config,
                          const StepObserver& done) {
-  auto finished = [&done](const char* step) {
-    if (done) done(step);
+  int cell_px = 1;
+  auto finished = [&](const char* step, std::function<std::vector<uint32_t>()> regions = {}) {
+    if (done) done({step, cell_px, std::move(regions)});
   };
   Segmentation result;
   result.labels.assign(image.depth_m.size(), 0);
   const DepthGrid grid =
       MakeDepthGrid(image, config.fast_min_range_m, config.max_range_m, config.sensor);
   result.n_points = grid.n_pixels;
-  finished("grid");
+  cell_px = grid.pixels;
+  finished("grid", [&] { return OfCells(grid, [&](size_t i) { return DepthBand(grid, i); }); });
   if (grid.n_pixels < config.plane_min_points) {
     result.reason = TooFewPoints(grid, config);
     return result;
@@ -128,14 +145,22 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   cells.inverse_depth = SmoothInverseDepth(grid, cells.part, config.sensor);
   MarkAboveTable(grid, cells.inverse_depth, space, *table.table_C, config, cells);
   EstimateNormals(grid, config.sensor, cells);
-  finished("surface");
+  finished("surface", [&] { return OfCells(grid, [&](size_t i) { return cells.used[i]; }); });
   SurfacePatches patches = MakePatches(grid, cells, config.sensor);
-  finished("patches");
+  finished("patches",
+           [&] { return OfCells(grid, [&](size_t i) { return patches.patch_of_cell[i] + 1; }); });
   const std::vector<PatchEdge> edges = FindEdges(grid, cells, patches, config.sensor);
   SteadyNormals(edges, patches);
   const PatchScene scene{grid, cells, patches, edges, *table.table_C, config.sensor};
-  const auto [groups, vessels] = GroupPatches(scene);
-  finished("grouping");
+  const Grouping grouping = GroupPatches(scene);
+  const PatchGroups& groups = grouping.groups;
+  const std::vector<Vessel>& vessels = grouping.vessels;
+  finished("grouping", [&] {
+    return OfCells(grid, [&](size_t i) {
+      const int patch = patches.patch_of_cell[i];
+      return patch < 0 ? 0 : groups.Of(patch) + 1;
+    });
+  });
   const std::vector<int> objects = SelectObjects(scene, groups, table.outline, config);
   std::vector<uint16_t> label_of_group(groups.Count(), 0);
   for (size_t k = 0; k < objects.size(); ++k) {
@@ -145,7 +170,9 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   LabelBottoms(scene, groups, vessels, label_of_group, label_of_cell);
   LabelPixels(image, grid, cells, std::move(label_of_cell), config.sensor, result.labels);
   NumberBySize(static_cast<int>(objects.size()), config.max_objects, result);
-  finished("labels");
+  cell_px = 1;
+  finished("labels",
+           [&] { return std::vector<uint32_t>(result.labels.begin(), result.labels.end()); });
   return result;
 }
 

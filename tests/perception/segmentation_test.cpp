@@ -223,7 +223,7 @@ TEST(SegmentReference, MayUseNormals) {
   config.cluster_min_points = 50;
   std::set<std::string> steps;
   const Segmentation result =
-      Segment(world.Render(), config, [&steps](const char* step) { steps.insert(step); });
+      Segment(world.Render(), config, [&steps](const StepDone& step) { steps.insert(step.name); });
   ExpectTable(world, result);
   EXPECT_EQ(result.n_objects, 3);
   EXPECT_THAT(steps, testing::ElementsAre("clusters", "hull", "labels", "normals", "plane", "prism",
