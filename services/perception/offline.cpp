@@ -49,8 +49,9 @@ struct Timed {
 };
 
 /// Every run starts anew: nothing is remembered of the last.
-Timed PerceiveRepeatedly(const RgbdImage& image, const PerceiverConfig& config,
+Timed PerceiveRepeatedly(const RgbdImage& image, PerceiverConfig config,
                          const Categoriser* categoriser, int repeat) {
+  config.remember = false;
   Timed result;
   std::vector<double> segmentation_ms, categorisation_ms, total_ms;
   std::vector<std::vector<double>> steps_ms;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "services/base/utime.h"
@@ -30,8 +31,7 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   if (perception.segmentation.table_C) {
     perception.X_WC = WorldFromTable(*perception.segmentation.table_C);
   }
-  const SteadyObjects steady =
-      memory_.Update(image, config_.segmentation.max_objects, perception.segmentation);
+  const SteadyObjects steady = Remember(image, perception.segmentation);
   auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC, steady.silhouettes);
   outlines_.Draw(image.width, steady.ids, shapes);
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -47,6 +47,15 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   if (categorise_) CategoriseAll(image, perception);
   perception.categorisation_ms = categorisation.Milliseconds();
   return perception;
+}
+
+SteadyObjects Perceiver::Remember(const RgbdImage& image, Segmentation& segmentation) {
+  if (config_.remember) {
+    return memory_.Update(image, config_.segmentation.max_objects, segmentation);
+  }
+  std::vector<int> ids(segmentation.n_objects);
+  std::iota(ids.begin(), ids.end(), 1);
+  return {ids, segmentation.labels};
 }
 
 bool Perceiver::SameView(const ExtractedObject& shape, const Remembered& remembered) const {

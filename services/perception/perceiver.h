@@ -20,6 +20,7 @@ struct PerceiverConfig {
   TrackerConfig tracker;
   double recategorise_step_m = 0.01;  // an object that moved more is looked at anew,
   double recategorise_growth = 0.2;  // so is one whose points grew or shrank by more than this part
+  bool remember = true;              // false: every image stands alone, objects are numbered from 1
   int threads = 1;                   // objects are categorised by so many at a time
 };
 
@@ -63,6 +64,7 @@ class Perceiver {
     Categorisation category;
   };
 
+  SteadyObjects Remember(const RgbdImage& image, Segmentation& segmentation);
   void CategoriseAll(const RgbdImage& image, Perception& perception);
   bool SameView(const ExtractedObject& shape, const Remembered& remembered) const;
 
