@@ -1,4 +1,6 @@
 // beckon-perception: sees the table and what stands on it, on the bus or in a file.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -22,7 +24,7 @@ void AddOptions(CLI::App& app, Options& o) {
   AddAppOptions(app, o.app);
   auto* input = app.add_option("--input", o.offline.input,
                                "Perceive this cloud (.pcd, .ply) and leave; no bus");
-  app.add_option("--segmentation", o.overrides.segmentation, "How to segment: reference");
+  app.add_option("--segmentation", o.overrides.segmentation, "How to segment: fast or reference");
   app.add_flag("--no-categories", o.overrides.no_categories,
                "Do not say of which category objects are");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
@@ -32,7 +34,13 @@ void AddOptions(CLI::App& app, Options& o) {
       ->check(CLI::Range(1, 64));
   app.add_option("--json", o.offline.json_file, "The result (default: standard output)");
   app.add_option("--labels", o.offline.labels_file, "16-bit PNG of the objects' pixels");
-  app.add_option("--picture", o.offline.picture_file, "The image with named objects");
+  auto* picture = app.add_option("--picture", o.offline.picture_file,
+                                 "The image with named objects and the time of each step");
+  app.add_option("--stage", o.offline.stage,
+                 "The picture shows what this step of segmentation made: grid, table, surface, "
+                 "patches, grouping, labels (fast); range_voxels, normals (if used), plane, hull, "
+                 "prism, clusters, labels (reference)")
+      ->needs(picture);
   app.add_option("--repeat", o.offline.repeat, "Compute this often, tell the median times")
       ->check(CLI::Range(1, 100000));
   for (const char* name : {"--json", "--labels", "--picture", "--repeat"}) {
@@ -55,6 +63,9 @@ Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Every frame takes the same few megabytes; faulting them in anew costs as much as segmenting.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
   CLI::App app("Sees the table and the objects on it", "beckon-perception");
   Options options;
   AddOptions(app, options);

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 namespace beckon::perception {
 namespace {
 
 constexpr double kFinestSample_m = 0.002;
-constexpr int kCloses_px = 2;  // gaps of depth that an outline passes over
 
 Eigen::Vector3d PointAt(const RgbdImage& image, uint32_t pixel) {
   return image.Point(static_cast<int>(pixel) % image.width, static_cast<int>(pixel) / image.width);
@@ -32,52 +30,13 @@ void Measure(const RgbdImage& image, const Pose& X_WC, ExtractedObject& object) 
   object.extent_W = high_W - low_W;
 }
 
-/// Twice the signed area; positive where the polygon runs clockwise as seen (v points down).
-double TwiceArea(const std::vector<cv::Point>& polygon) {
-  double sum = 0;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const auto& a = polygon[i];
-    const auto& b = polygon[(i + 1) % polygon.size()];
-    sum += static_cast<double>(a.x) * b.y - static_cast<double>(b.x) * a.y;
+/// The pixels of labels 1 .. n, ascending.
+std::vector<std::vector<uint32_t>> PixelsOf(std::span<const uint16_t> labels, int n) {
+  std::vector<std::vector<uint32_t>> pixels(n);
+  for (uint32_t pixel = 0; pixel < labels.size(); ++pixel) {
+    if (const int k = labels[pixel]; k > 0) pixels[k - 1].push_back(pixel);
   }
-  return sum;
-}
-
-/// The largest outer contour of the object's pixels, small gaps closed, simplified until it has few
-/// enough vertices.
-std::vector<std::array<int16_t, 2>> Outline(const RgbdImage& image,
-                                            const std::vector<uint32_t>& pixels) {
-  int left = image.width, right = 0, top = image.height, bottom = 0;
-  for (uint32_t pixel : pixels) {
-    const int u = static_cast<int>(pixel) % image.width, v = static_cast<int>(pixel) / image.width;
-    left = std::min(left, u), right = std::max(right, u);
-    top = std::min(top, v), bottom = std::max(bottom, v);
-  }
-  left -= kCloses_px, right += kCloses_px, top -= kCloses_px, bottom += kCloses_px;
-  cv::Mat mask = cv::Mat::zeros(bottom - top + 1, right - left + 1, CV_8U);
-  for (uint32_t pixel : pixels) {
-    mask.at<uint8_t>(static_cast<int>(pixel) / image.width - top,
-                     static_cast<int>(pixel) % image.width - left) = 255;
-  }
-  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE,
-                   cv::Mat::ones(2 * kCloses_px + 1, 2 * kCloses_px + 1, CV_8U));
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, {left, top});
-  const auto largest = std::max_element(
-      contours.begin(), contours.end(),
-      [](const auto& a, const auto& b) { return std::abs(TwiceArea(a)) < std::abs(TwiceArea(b)); });
-  if (largest == contours.end()) return {};
-  std::vector<cv::Point> polygon;
-  for (double tolerance_px = 1;; tolerance_px *= 1.5) {
-    cv::approxPolyDP(*largest, polygon, tolerance_px, true);
-    if (static_cast<int>(polygon.size()) <= kMaxOutline) break;
-  }
-  if (TwiceArea(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
-  std::vector<std::array<int16_t, 2>> outline;
-  for (const auto& p : polygon) {
-    outline.push_back({static_cast<int16_t>(p.x), static_cast<int16_t>(p.y)});
-  }
-  return outline;
+  return pixels;
 }
 
 /// Means of the points in voxels of `edge_m`, ordered by voxel.
@@ -105,15 +64,17 @@ std::vector<Eigen::Vector3f> VoxelMeans(std::span<const Eigen::Vector3d> points_
 }  // namespace
 
 std::vector<ExtractedObject> ExtractObjects(const RgbdImage& image,
-                                            const Segmentation& segmentation, const Pose& X_WC) {
+                                            const Segmentation& segmentation, const Pose& X_WC,
+                                            std::span<const uint16_t> silhouettes) {
   if (!segmentation.table_C) return {};
-  std::vector<ExtractedObject> objects(segmentation.n_objects);
-  for (uint32_t pixel = 0; pixel < segmentation.labels.size(); ++pixel) {
-    if (const int k = segmentation.labels[pixel]; k > 0) objects[k - 1].pixels.push_back(pixel);
-  }
-  for (auto& object : objects) {
-    Measure(image, X_WC, object);
-    object.outline_px = Outline(image, object.pixels);
+  const int n = segmentation.n_objects;
+  auto pixels = PixelsOf(segmentation.labels, n);
+  auto outlined = PixelsOf(silhouettes, n);
+  std::vector<ExtractedObject> objects(n);
+  for (int k = 0; k < n; ++k) {
+    objects[k].pixels = std::move(pixels[k]);
+    objects[k].silhouette = std::move(outlined[k]);
+    Measure(image, X_WC, objects[k]);
   }
   return objects;
 }

@@ -49,8 +49,9 @@ struct Timed {
 };
 
 /// Every run starts anew: nothing is remembered of the last.
-Timed PerceiveRepeatedly(const RgbdImage& image, const PerceiverConfig& config,
+Timed PerceiveRepeatedly(const RgbdImage& image, PerceiverConfig config,
                          const Categoriser* categoriser, int repeat) {
+  config.remember = false;
   Timed result;
   std::vector<double> segmentation_ms, categorisation_ms, total_ms;
   std::vector<std::vector<double>> steps_ms;
@@ -136,7 +137,12 @@ Status PerceiveFile(const OfflineOptions& options, const PerceptionConfig& confi
     if (Status s = WriteLabels(options.labels_file, *image, timed.perception); !s) return s;
   }
   if (!options.picture_file.empty()) {
-    if (Status s = WritePicture(options.picture_file, *image, timed.perception); !s) return s;
+    const Status s =
+        options.stage.empty()
+            ? WritePicture(options.picture_file, *image, timed.perception)
+            : WriteStagePicture(options.picture_file, *image, config.perceiver.segmentation,
+                                timed.perception, options.stage);
+    if (!s) return s;
   }
   return {};
 }

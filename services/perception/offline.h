@@ -12,6 +12,7 @@ struct OfflineOptions {
   std::string json_file;     // empty: standard output
   std::string labels_file;   // empty: none
   std::string picture_file;  // empty: none
+  std::string stage;         // of segmentation, that the picture shows; empty: the result
   int repeat = 1;            // times everything is computed; the medians of the times are told
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "services/base/utime.h"
@@ -22,19 +23,20 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   Perception perception;
   const Stopwatch whole;
   double told_ms = 0;
-  perception.segmentation = Segment(image, config_.segmentation, [&](const char* step) {
+  perception.segmentation = Segment(image, config_.segmentation, [&](const StepDone& step) {
     const double now_ms = whole.Milliseconds();
-    perception.steps_ms.emplace_back(step, now_ms - told_ms);
+    perception.steps_ms.emplace_back(step.name, now_ms - told_ms);
     told_ms = now_ms;
   });
   if (perception.segmentation.table_C) {
     perception.X_WC = WorldFromTable(*perception.segmentation.table_C);
   }
-  auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC);
-  const auto ids = tracker_.Update(shapes);
+  const SteadyObjects steady = Remember(image, perception.segmentation);
+  auto shapes = ExtractObjects(image, perception.segmentation, perception.X_WC, steady.silhouettes);
+  outlines_.Draw(image.width, steady.ids, shapes);
   for (size_t i = 0; i < shapes.size(); ++i) {
     PerceivedObject object;
-    object.id = ids[i];
+    object.id = steady.ids[i];
     object.shape = std::move(shapes[i]);
     perception.objects.push_back(std::move(object));
   }
@@ -45,6 +47,15 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   if (categorise_) CategoriseAll(image, perception);
   perception.categorisation_ms = categorisation.Milliseconds();
   return perception;
+}
+
+SteadyObjects Perceiver::Remember(const RgbdImage& image, Segmentation& segmentation) {
+  if (config_.remember) {
+    return memory_.Update(image, config_.segmentation.max_objects, segmentation);
+  }
+  std::vector<int> ids(segmentation.n_objects);
+  std::iota(ids.begin(), ids.end(), 1);
+  return {ids, segmentation.labels};
 }
 
 bool Perceiver::SameView(const ExtractedObject& shape, const Remembered& remembered) const {
@@ -93,8 +104,7 @@ void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
   for (auto& object : perception.objects) {
     object.categorised = !object.category.probabilities.empty();
   }
-  std::erase_if(remembered_,
-                [this](const auto& entry) { return !tracker_.Remembers(entry.first); });
+  std::erase_if(remembered_, [this](const auto& entry) { return !memory_.Remembers(entry.first); });
 }
 
 }  // namespace beckon::perception

@@ -9,8 +9,9 @@
 
 #include "services/perception/categoriser.h"
 #include "services/perception/object_extraction.h"
+#include "services/perception/object_memory.h"
+#include "services/perception/object_outline.h"
 #include "services/perception/segmentation.h"
-#include "services/perception/tracker.h"
 
 namespace beckon::perception {
 
@@ -19,6 +20,7 @@ struct PerceiverConfig {
   TrackerConfig tracker;
   double recategorise_step_m = 0.01;  // an object that moved more is looked at anew,
   double recategorise_growth = 0.2;  // so is one whose points grew or shrank by more than this part
+  bool remember = true;              // false: every image stands alone, objects are numbered from 1
   int threads = 1;                   // objects are categorised by so many at a time
 };
 
@@ -46,7 +48,9 @@ class Perceiver {
  public:
   /// `categorise` may be empty: objects stay uncategorised.
   Perceiver(const PerceiverConfig& config, Categorise categorise)
-      : config_(config), categorise_(std::move(categorise)), tracker_(config.tracker) {}
+      : config_(config),
+        categorise_(std::move(categorise)),
+        memory_(config.tracker, config.segmentation.sensor) {}
   /// `categoriser` may be null; it must outlive this.
   Perceiver(const PerceiverConfig& config, const Categoriser* categoriser);
 
@@ -60,12 +64,14 @@ class Perceiver {
     Categorisation category;
   };
 
+  SteadyObjects Remember(const RgbdImage& image, Segmentation& segmentation);
   void CategoriseAll(const RgbdImage& image, Perception& perception);
   bool SameView(const ExtractedObject& shape, const Remembered& remembered) const;
 
   PerceiverConfig config_;
   Categorise categorise_;
-  Tracker tracker_;
+  ObjectMemory memory_;
+  OutlineMemory outlines_;
   std::map<int, Remembered> remembered_;
 };
 

@@ -20,6 +20,14 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
   if (config.min_range_m >= config.max_range_m) {
     table.Fail("max_range_m", "must be greater than min_range_m");
   }
+  table.Get("fast_min_range_m", config.fast_min_range_m, 0.01, 100);
+  if (config.fast_min_range_m >= config.max_range_m) {
+    table.Fail("max_range_m", "must be greater than fast_min_range_m");
+  }
+  table.Get("noise_floor_m", config.sensor.floor_m, 0.00001, 0.1);
+  table.Get("noise_growth_per_m", config.sensor.growth_per_m, 0, 0.1);
+  table.Get("noise_from_m", config.sensor.from_m, 0, 10);
+  table.Get("min_object_m2", config.min_object_m2, 0.000001, 1);
   table.Get("voxel_m", config.voxel_m, 0.0005, 0.1);
   table.Get("use_normals", config.use_normals);
   table.Get("normal_neighbours", config.normal_neighbours, 3, 1000);
@@ -43,7 +51,11 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
 void ReadTracker(ConfigTable tracker, PerceiverConfig& config) {
   tracker.Get("max_step_m", config.tracker.max_step_m, 0.001, 1);
   tracker.Get("min_overlap", config.tracker.min_overlap, 0.01, 1);
+  tracker.Get("max_jump_m", config.tracker.max_jump_m, 0, 10);
+  tracker.Get("min_likeness", config.tracker.min_likeness, 0, 1);
   tracker.Get("forget_after_frames", config.tracker.forget_after_frames, 1, 1'000'000);
+  tracker.Get("steady", config.tracker.steady);
+  tracker.Get("settle_after_frames", config.tracker.settle_after_frames, 1, 100);
   tracker.Get("recategorise_step_m", config.recategorise_step_m, 0, 1);
   tracker.Get("recategorise_growth", config.recategorise_growth, 0, 10);
 }

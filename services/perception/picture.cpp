@@ -89,6 +89,53 @@ void DrawCaption(const PerceivedObject& object, std::vector<cv::Rect>& taken, cv
               kTextScale, ColourOf(object.id), 1, cv::LINE_AA);
 }
 
+/// Lines of text at the lower border, broken between words.
+void DrawCaption(const std::vector<std::string>& words, cv::Mat& canvas) {
+  std::vector<std::string> lines = {""};
+  const auto width = [](const std::string& text) {
+    int below = 0;
+    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextScale, 1, &below).width;
+  };
+  for (const auto& word : words) {
+    if (width(lines.back() + word) > canvas.cols - 8) lines.emplace_back();
+    lines.back() += word + "  ";
+  }
+  constexpr int kLine_px = 15;
+  const int top = canvas.rows - kLine_px * static_cast<int>(lines.size()) - 4;
+  cv::rectangle(canvas, {0, top}, {canvas.cols, canvas.rows}, {0, 0, 0}, cv::FILLED);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    cv::putText(canvas, lines[i], {4, top + kLine_px * static_cast<int>(i + 1) - 2},
+                cv::FONT_HERSHEY_SIMPLEX, kTextScale, kTableColour, 1, cv::LINE_AA);
+  }
+}
+
+/// The first word, then each step with its time.
+std::vector<std::string> Times(const std::string& first, const Perception& perception) {
+  std::vector<std::string> words = {first};
+  for (const auto& [step, ms] : perception.steps_ms) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %.2f ms", step.c_str(), ms);
+    words.emplace_back(text);
+  }
+  return words;
+}
+
+/// Paints regions over the picture, half transparent.
+void PaintRegions(const std::vector<uint32_t>& regions, int cell_px, cv::Mat& canvas) {
+  const int width = canvas.cols / cell_px, height = canvas.rows / cell_px;
+  for (int v = 0; v < height * cell_px; ++v) {
+    for (int u = 0; u < width * cell_px; ++u) {
+      const uint32_t k = regions[static_cast<size_t>(v / cell_px) * width + u / cell_px];
+      if (k == 0) continue;
+      const cv::Scalar colour = ColourOf(static_cast<int>(k % 180));
+      auto& pixel = canvas.at<cv::Vec3b>(v, u);
+      for (int c = 0; c < 3; ++c) {
+        pixel[c] = cv::saturate_cast<uint8_t>(0.35 * pixel[c] + 0.65 * colour[c]);
+      }
+    }
+  }
+}
+
 Status Write(const std::string& path, const cv::Mat& picture) {
   const std::string message =
       path + ": cannot write the picture; is the folder there, and does the name end in .png?";
@@ -108,6 +155,28 @@ Status WritePicture(const std::string& path, const RgbdImage& image, const Perce
   for (const auto& object : perception.objects) DrawOutline(object, canvas);
   std::vector<cv::Rect> taken;
   for (const auto& object : perception.objects) DrawCaption(object, taken, canvas);
+  DrawCaption(Times("", perception), canvas);
+  return Write(path, canvas);
+}
+
+Status WriteStagePicture(const std::string& path, const RgbdImage& image,
+                         const SegmentationConfig& config, const Perception& perception,
+                         const std::string& stage) {
+  cv::Mat canvas = Background(image);
+  std::string steps;
+  bool reached = false;
+  const Segmentation segmentation = Segment(image, config, [&](const StepDone& step) {
+    steps += std::string(steps.empty() ? "" : ", ") + step.name;
+    if (step.name != stage) return;
+    reached = true;
+    if (step.regions) PaintRegions(step.regions(), step.cell_px, canvas);
+  });
+  if (!reached) {
+    return Error{"--stage: there is no step '" + stage + "' of the method '" + Name(config.method) +
+                 "' on this image; its steps are: " + steps};
+  }
+  DrawTable(image, segmentation.hull_C, canvas);
+  DrawCaption(Times(std::string(Name(config.method)) + ", " + stage + ":", perception), canvas);
   return Write(path, canvas);
 }
 

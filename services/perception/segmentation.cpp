@@ -1,20 +1,27 @@
 // The names of the segmentation methods, and the choice among them.
 #include "services/perception/segmentation.h"
 
+#include "services/perception/segmentation_fast.h"
 #include "services/perception/segmentation_reference.h"
 
 namespace beckon::perception {
 
-const char* Name(SegmentationMethod) { return "reference"; }
+const char* Name(SegmentationMethod method) {
+  return method == SegmentationMethod::kReference ? "reference" : "fast";
+}
 
 Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name) {
-  if (name == "reference") return SegmentationMethod::kReference;
-  return Error{"segmentation: there is no method '" + name + "' in this build; it has: reference"};
+  for (const auto method : {SegmentationMethod::kFast, SegmentationMethod::kReference}) {
+    if (name == Name(method)) return method;
+  }
+  return Error{"segmentation: there is no method '" + name +
+               "' in this build; it has: fast, reference"};
 }
 
 Segmentation Segment(const RgbdImage& image, const SegmentationConfig& config,
                      const StepObserver& done) {
-  return SegmentReference(image, config, done);
+  return config.method == SegmentationMethod::kReference ? SegmentReference(image, config, done)
+                                                         : SegmentFast(image, config, done);
 }
 
 }  // namespace beckon::perception

@@ -6,6 +6,7 @@
 #include <pcl/segmentation/extract_clusters.h>
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "services/perception/table_outline.h"
@@ -106,6 +107,35 @@ std::vector<Eigen::Vector2d> Outline(std::span<const Eigen::Vector3f> points_C,
   return ConvexHull(LargestPiece(on_table, gap_m));
 }
 
+/// A number per voxel as one per pixel.
+std::vector<uint32_t> OfPixels(const VoxelGrid& grid, std::span<const uint32_t> of_voxel) {
+  std::vector<uint32_t> of_pixel(grid.voxel_of_pixel.size(), 0);
+  for (size_t i = 0; i < of_pixel.size(); ++i) {
+    const uint32_t voxel = grid.voxel_of_pixel[i];
+    if (voxel != VoxelGrid::kNone) of_pixel[i] = of_voxel[voxel];
+  }
+  return of_pixel;
+}
+
+/// Per voxel: 1 = among those listed.
+std::vector<uint32_t> Marked(const VoxelGrid& grid, std::span<const uint32_t> voxels) {
+  std::vector<uint32_t> marked(grid.points_C.size(), 0);
+  for (uint32_t voxel : voxels) marked[voxel] = 1;
+  return marked;
+}
+
+/// The voxels of the table's plane within its outline.
+std::vector<uint32_t> Within(const VoxelGrid& grid, const TableSearch& table,
+                             std::span<const Eigen::Vector2d> outline) {
+  if (outline.size() < 3) return {};
+  const PlaneAxes axes(*table.table_C);
+  std::vector<uint32_t> within = table.inliers;
+  std::erase_if(within, [&](uint32_t voxel) {
+    return !Contains(outline, axes(grid.points_C[voxel].cast<double>()));
+  });
+  return within;
+}
+
 std::string TooFewPoints(const Segmentation& result, const SegmentationConfig& config) {
   std::ostringstream text;
   text << "only " << result.n_points << " pixels have depth between " << config.min_range_m
@@ -117,8 +147,8 @@ std::string TooFewPoints(const Segmentation& result, const SegmentationConfig& c
 
 Segmentation SegmentReference(const RgbdImage& image, const SegmentationConfig& config,
                               const StepObserver& done) {
-  auto finished = [&done](const char* step) {
-    if (done) done(step);
+  auto finished = [&done](const char* step, std::function<std::vector<uint32_t>()> regions = {}) {
+    if (done) done({step, 1, std::move(regions)});
   };
   Segmentation result;
   result.labels.assign(image.depth_m.size(), 0);
@@ -127,21 +157,25 @@ Segmentation SegmentReference(const RgbdImage& image, const SegmentationConfig& 
       MakeVoxelGrid(image, config.voxel_m, config.min_range_m, config.max_range_m);
   result.n_points = grid.n_pixels;
   result.n_voxels = static_cast<int>(grid.points_C.size());
-  finished("range_voxels");
+  finished("range_voxels", [&] {
+    std::vector<uint32_t> number(grid.points_C.size());
+    std::iota(number.begin(), number.end(), 1);
+    return OfPixels(grid, number);
+  });
   if (result.n_voxels < config.plane_min_points) {
     result.reason = TooFewPoints(result, config);
     return result;
   }
 
   const TableSearch table = FindTable(grid.points_C, config, done);
-  finished("plane");
+  finished("plane", [&] { return OfPixels(grid, Marked(grid, table.inliers)); });
   if (!table.table_C) {
     result.reason = table.reason;
     return result;
   }
 
   const auto outline = Outline(grid.points_C, table, config.table_gap_m);
-  finished("hull");
+  finished("hull", [&] { return OfPixels(grid, Marked(grid, Within(grid, table, outline))); });
   if (outline.size() < 3) {
     result.reason = "the points of the largest plane lie on a line";
     return result;
@@ -156,13 +190,14 @@ Segmentation SegmentReference(const RgbdImage& image, const SegmentationConfig& 
 
   const auto above = Prism(grid.points_C, *table.table_C, outline, config);
   result.n_prism_points = static_cast<int>(above.size());
-  finished("prism");
+  finished("prism", [&] { return OfPixels(grid, Marked(grid, above)); });
   std::vector<uint32_t> cluster_of_voxel;
   const int n_clusters = Cluster(grid.points_C, above, config, cluster_of_voxel);
   DropBorderClusters(grid.points_C, *table.table_C, outline, config, cluster_of_voxel, n_clusters);
-  finished("clusters");
+  finished("clusters", [&] { return OfPixels(grid, cluster_of_voxel); });
   LabelPixels(grid, cluster_of_voxel, n_clusters, config, result);
-  finished("labels");
+  finished("labels",
+           [&] { return std::vector<uint32_t>(result.labels.begin(), result.labels.end()); });
   return result;
 }
 

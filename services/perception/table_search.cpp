@@ -141,7 +141,7 @@ TableSearch FindTable(std::span<const Eigen::Vector3f> points_C, const Segmentat
       pcl::console::L_ALWAYS);  // a missing plane is no news for a terminal
   TableSearch result;
   PlaneFinder finder(points_C, config);
-  if (done && config.use_normals) done("normals");
+  if (done && config.use_normals) done({"normals"});
   Indices among(points_C.size());
   for (size_t i = 0; i < among.size(); ++i) among[i] = static_cast<int>(i);
 

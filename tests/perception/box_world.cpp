@@ -21,6 +21,28 @@ double Hit(const WorldBox& box, const Eigen::Vector3d& origin, const Eigen::Vect
   return enter <= leave && enter > 0 ? enter : std::numeric_limits<double>::infinity();
 }
 
+/// The same for a cup: its outer and inner wall and its bottom.
+double Hit(const WorldCup& cup, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  auto take = [&](double t, bool good) {
+    if (good && t > 0 && t < nearest) nearest = t;
+  };
+  const Eigen::Vector2d from = origin.head<2>() - cup.centre, along = direction.head<2>();
+  for (double radius_m : {cup.radius_m, cup.radius_m - cup.wall_m}) {
+    const double a = along.squaredNorm(), b = from.dot(along);
+    const double root = b * b - a * (from.squaredNorm() - radius_m * radius_m);
+    if (root < 0) continue;
+    for (double side : {-1.0, 1.0}) {
+      const double t = (-b + side * std::sqrt(root)) / a;
+      const double z = origin.z() + t * direction.z();
+      take(t, z >= 0 && z <= cup.height_m);
+    }
+  }
+  const double bottom = (cup.wall_m - origin.z()) / direction.z();
+  take(bottom, (from + bottom * along).norm() < cup.radius_m);
+  return nearest;
+}
+
 }  // namespace
 
 Pose BoxWorld::X_WC() const {
@@ -54,11 +76,15 @@ RgbdImage BoxWorld::Render(std::vector<int>* box_of_pixel, unsigned seed) const 
         const double depth_m = Hit(boxes[b], camera.translation(), ray);
         if (depth_m < nearest_m) nearest_m = depth_m, which = b;
       }
+      for (size_t c = 0; c < cups.size(); ++c) {
+        const double depth_m = Hit(cups[c], camera.translation(), ray);
+        if (depth_m < nearest_m) nearest_m = depth_m, which = boxes.size() + c;
+      }
       if (!std::isfinite(nearest_m)) continue;
       const size_t i = image.Index(u, v);
       image.depth_m[i] =
           static_cast<float>(nearest_m + noise_m * nearest_m * nearest_m * normal(engine));
-      image.colour[i] = boxes[which].colour;
+      image.colour[i] = which < boxes.size() ? boxes[which].colour : Rgb{90, 200, 60};
       if (box_of_pixel != nullptr) (*box_of_pixel)[i] = static_cast<int>(which) + 1;
     }
   }

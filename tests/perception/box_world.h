@@ -15,8 +15,15 @@ struct WorldBox {
   Rgb colour{200, 180, 160};
 };
 
+/// An open-topped tube with a bottom, standing upright on z = 0 of W: a cup.
+struct WorldCup {
+  Eigen::Vector2d centre;
+  double radius_m = 0.04, height_m = 0.1, wall_m = 0.003;
+};
+
 struct BoxWorld {
   std::vector<WorldBox> boxes;
+  std::vector<WorldCup> cups;
   double camera_height_m = 0.6;
   double pitch_deg = 38;  // downwards
   int width = 320, height = 240;
@@ -24,7 +31,8 @@ struct BoxWorld {
 
   /// The camera in W.
   Pose X_WC() const;
-  /// What the camera sees; `box_of_pixel`, where not null, tells which box (index + 1, 0 = none).
+  /// What the camera sees; `box_of_pixel`, where not null, tells which box (index + 1, 0 = none);
+  /// cups count on from the boxes.
   RgbdImage Render(std::vector<int>* box_of_pixel = nullptr, unsigned seed = 1) const;
 };
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "services/base/cloud_file.h"
 #include "tests/perception/box_world.h"
@@ -109,6 +110,29 @@ TEST_F(OfflineTest, WritesJsonLabelsAndAPicture) {
   EXPECT_EQ(labels.size(), cv::Size(320, 240));
   ExpectThreeObjects(ReadJson("o.json"), labels);
   EXPECT_EQ(cv::imread(Path("p.png")).size(), cv::Size(320, 240));
+}
+
+TEST_F(OfflineTest, DrawsEveryStageOfBothMethods) {
+  const std::string input = "--input " + WriteCloud(ThreeBoxes()) + " --no-categories --json " +
+                            Path("o.json") + " --picture " + Path("p.png") + " --segmentation ";
+  for (const auto& [method, stages] :
+       {std::pair("fast", std::vector{"grid", "table", "surface", "patches", "grouping", "labels"}),
+        std::pair("reference",
+                  std::vector{"range_voxels", "plane", "hull", "prism", "clusters", "labels"})}) {
+    std::set<std::string> pictures;
+    for (const std::string stage : stages) {
+      const Ran ran = Execute(input + method + " --stage " + stage);
+      ASSERT_EQ(ran.exit_code, 0) << ran.output;
+      EXPECT_EQ(cv::imread(Path("p.png")).size(), cv::Size(320, 240));
+      std::ifstream png(Path("p.png"), std::ios::binary);
+      pictures.insert(std::string(std::istreambuf_iterator<char>(png), {}));
+      EXPECT_TRUE(ReadJson("o.json")["steps_ms"].contains(stage)) << stage;
+    }
+    EXPECT_EQ(pictures.size(), stages.size());
+    const Ran wrong = Execute(input + method + " --stage magic");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.output, testing::HasSubstr(stages.front() + std::string(", ")));
+  }
 }
 
 TEST_F(OfflineTest, TakesUnorganisedCloudsOnAGridOf640x480) {

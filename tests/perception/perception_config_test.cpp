@@ -20,6 +20,12 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   ASSERT_TRUE(read) << read.error().message;
   const PerceptionConfig defaults;
   const SegmentationConfig &a = read->perceiver.segmentation, &b = defaults.perceiver.segmentation;
+  EXPECT_EQ(a.method, b.method);
+  EXPECT_EQ(a.sensor.floor_m, b.sensor.floor_m);
+  EXPECT_EQ(a.sensor.growth_per_m, b.sensor.growth_per_m);
+  EXPECT_EQ(a.sensor.from_m, b.sensor.from_m);
+  EXPECT_EQ(a.fast_min_range_m, b.fast_min_range_m);
+  EXPECT_EQ(a.min_object_m2, b.min_object_m2);
   EXPECT_EQ(a.min_range_m, b.min_range_m);
   EXPECT_EQ(a.max_range_m, b.max_range_m);
   EXPECT_EQ(a.voxel_m, b.voxel_m);
@@ -41,6 +47,11 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   EXPECT_EQ(read->perceiver.tracker.min_overlap, defaults.perceiver.tracker.min_overlap);
   EXPECT_EQ(read->perceiver.tracker.forget_after_frames,
             defaults.perceiver.tracker.forget_after_frames);
+  EXPECT_EQ(read->perceiver.tracker.max_jump_m, defaults.perceiver.tracker.max_jump_m);
+  EXPECT_EQ(read->perceiver.tracker.min_likeness, defaults.perceiver.tracker.min_likeness);
+  EXPECT_EQ(read->perceiver.tracker.steady, defaults.perceiver.tracker.steady);
+  EXPECT_EQ(read->perceiver.tracker.settle_after_frames,
+            defaults.perceiver.tracker.settle_after_frames);
   EXPECT_EQ(read->perceiver.recategorise_step_m, defaults.perceiver.recategorise_step_m);
   EXPECT_EQ(read->perceiver.recategorise_growth, defaults.perceiver.recategorise_growth);
   EXPECT_EQ(read->perceiver.threads, defaults.perceiver.threads);
@@ -54,7 +65,8 @@ TEST(PerceptionConfig, RefusesWhatIsWrong) {
        {"[segmentation]\nvoxel_m = 0", "[segmentation]\nvoxel = 0.002",
         "[segmentation]\nmethod = \"magic\"", "threads = 0",
         "[segmentation]\nmin_range_m = 2.0\nmax_range_m = 1.0",
-        "[segmentation]\nmin_height_m = 0.6", "[tracker]\nmin_overlap = \"a\""}) {
+        "[segmentation]\nmin_height_m = 0.6", "[segmentation]\nnoise_floor_m = 0",
+        "[segmentation]\nfast_min_range_m = 3.5", "[tracker]\nmin_overlap = \"a\""}) {
     const auto read = Read(text);
     ASSERT_FALSE(read) << text;
     EXPECT_THAT(read.error().message, testing::HasSubstr("test.toml")) << text;

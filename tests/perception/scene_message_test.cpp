@@ -166,7 +166,7 @@ TEST(SceneMessage, OfSixtyFourObjectsFitsOneDatagram) {
 TEST(SampleSurface, StaysOnTheSurfaceAndWithinItsNumber) {
   const RgbdImage image = ThreeBoxes().Render();
   const Segmentation segmentation = Segment(image, {});
-  const auto objects = ExtractObjects(image, segmentation, Pose::Identity());
+  const auto objects = ExtractObjects(image, segmentation, Pose::Identity(), segmentation.labels);
   ASSERT_EQ(objects.size(), 3u);
   for (int most : {0, 1, 10, 100, 600, 100000}) {
     const auto sample = SampleSurface(image, objects[0].pixels, most);
@@ -189,7 +189,7 @@ TEST(ExtractObjects, CentroidIsTheMeanOfTheVisiblePoints) {
   const Segmentation segmentation = Segment(image, {});
   const Pose X_WC = WorldFromTable(*segmentation.table_C);
   size_t labelled = 0;
-  for (const auto& object : ExtractObjects(image, segmentation, X_WC)) {
+  for (const auto& object : ExtractObjects(image, segmentation, X_WC, segmentation.labels)) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (uint32_t i : object.pixels) sum += image.Point(i % image.width, i / image.width);
     EXPECT_LT((object.centroid_C - sum / object.pixels.size()).norm(), 1e-9);

@@ -1,0 +1,57 @@
+// From patches to objects: the rules in their order.
+#pragma once
+
+#include <vector>
+
+#include "services/perception/patch_graph.h"
+
+namespace beckon::perception {
+
+/// What a rule may look at.
+struct PatchScene {
+  const DepthGrid& grid;
+  const SurfaceCells& cells;
+  const SurfacePatches& patches;
+  const std::vector<PatchEdge>& edges;
+  const Plane& table_C;
+  const SensorNoise& sensor;
+};
+
+/// Sets of patches that are thought to be of one object; rules join them.
+class PatchGroups {
+ public:
+  explicit PatchGroups(std::vector<int> group_of_patch);
+
+  int Of(int patch) const { return of_patch_[patch]; }
+  int Count() const { return static_cast<int>(members_.size()); }
+  /// Patches of a group, ascending; empty once it was joined to another.
+  const std::vector<int>& Members(int group) const { return members_[group]; }
+  /// Puts all of `gone` into `keep`.
+  void Join(int keep, int gone);
+  /// Puts one patch into another group.
+  void Move(int patch, int group);
+
+ private:
+  std::vector<int> of_patch_;
+  std::vector<std::vector<int>> members_;
+};
+
+/// An upright round vessel; see vessel_rule.h.
+struct Vessel;
+
+struct Grouping {
+  PatchGroups groups;
+  std::vector<Vessel> vessels;
+};
+
+/// The object of each patch, in four steps: local evidence (grouping_rules.h), insides to their
+/// vessels (vessel_rule.h), what an occluder cut apart (occlusion_rule.h), fragments to what they
+/// touch.
+Grouping GroupPatches(const PatchScene& scene);
+
+/// Joins groups of less than `kFragment_m2` to the one they share the longest border with.
+void JoinFragments(const PatchScene& scene, PatchGroups& groups);
+
+inline constexpr float kFragment_m2 = 0.0030f;
+
+}  // namespace beckon::perception

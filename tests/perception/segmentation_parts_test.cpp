@@ -1,0 +1,168 @@
+// The parts of fast segmentation on their own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "services/perception/depth_smoothing.h"
+#include "services/perception/flat_blocks.h"
+#include "services/perception/grouping_rules.h"
+#include "services/perception/region_clustering.h"
+#include "services/perception/table_planes.h"
+#include "services/perception/vessel_rule.h"
+#include "tests/perception/box_world.h"
+
+namespace beckon::perception {
+namespace {
+
+using testing::ElementsAre;
+
+RgbdImage Camera(int width, int height, double focal_px) {
+  RgbdImage image;
+  image.width = width;
+  image.height = height;
+  image.intrinsics = {focal_px, focal_px, (width - 1) / 2.0, (height - 1) / 2.0};
+  image.depth_m.assign(static_cast<size_t>(width) * height, 0);
+  return image;
+}
+
+TEST(SensorNoise, IsTheKinectsOfNguyenAndOthers) {
+  const SensorNoise sensor;
+  EXPECT_NEAR(sensor.Sigma(1), 0.0012 + 0.0019 * 0.36, 1e-12);
+  const InverseDepthNoise inverse(sensor);
+  for (double z : {0.5, 1.0, 3.0}) {
+    EXPECT_NEAR(inverse(static_cast<float>(1 / z)), sensor.Sigma(z) / (z * z), 1e-7) << z;
+  }
+}
+
+TEST(DepthGrid, CellsSeeTheSameAngleAtAnyResolution) {
+  EXPECT_EQ(PixelsPerCell({262.5, 262.5, 0, 0}), 1);
+  EXPECT_EQ(PixelsPerCell({525, 525, 0, 0}), 2);
+  EXPECT_EQ(PixelsPerCell({1050, 1050, 0, 0}), 4);
+  EXPECT_EQ(PixelsPerCell({100000, 100000, 0, 0}), 8);
+}
+
+TEST(DepthGrid, ACellHoldsTheMeanOfTheNearestSurfaceInIt) {
+  RgbdImage image = Camera(4, 2, 525);
+  image.depth_m = {1.000f, 1.002f, 1.000f, 0.0f, 1.002f, 1.000f, 2.0f, NAN};
+  const DepthGrid grid = MakeDepthGrid(image, 0.3, 3, {});
+  ASSERT_EQ(grid.Size(), 2u);
+  EXPECT_NEAR(grid.inverse_depth[0], 1 / 1.001, 1e-5);
+  EXPECT_NEAR(grid.inverse_depth[1], 1, 1e-5);
+  EXPECT_EQ(grid.n_pixels, 6);
+}
+
+TEST(SmoothInverseDepth, LeavesTiltedPlanesAndStepsAsTheyAre) {
+  RgbdImage image = Camera(64, 48, 262.5);
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const float w = u < 32 ? 1.0f + 0.004f * static_cast<float>(u) : 0.8f;
+      image.depth_m[image.Index(u, v)] = 1 / w;
+    }
+  }
+  const DepthGrid grid = MakeDepthGrid(image, 0.3, 3, {});
+  const auto smooth = SmoothInverseDepth(grid, {0, 0, grid.width, grid.height}, {});
+  for (size_t i = 0; i < grid.Size(); ++i) EXPECT_NEAR(smooth[i], grid.inverse_depth[i], 1e-5) << i;
+}
+
+TEST(FlatBlocks, BearHolesAndKnowTheirNormals) {
+  const BoxWorld world{.boxes = {Table()}};
+  RgbdImage image = world.Render();
+  for (size_t i = 0; i < image.depth_m.size(); i += 5) image.depth_m[i] = 0;
+  const auto blocks = FlatBlocks(MakeDepthGrid(image, 0.3, 3, {}), InverseDepthNoise({}));
+  const Eigen::Vector3d up_C = world.X_WC().linear().transpose() * Eigen::Vector3d::UnitZ();
+  ASSERT_GT(blocks.size(), 500u);
+  int n_level = 0;
+  for (const Block& b : blocks) n_level += b.normal.cast<double>().dot(up_C) > 0.999;
+  EXPECT_GT(n_level, 0.95 * static_cast<double>(blocks.size()));
+}
+
+TEST(ClusterSignedGraph, AWrongEdgeIsOutvotedByTheRestOfTheBorder) {
+  // Two squares of four patches; three of the four edges between them speak against.
+  std::vector<SignedEdge> edges;
+  for (int base : {0, 4}) {
+    edges.push_back({base, base + 1, 1, 6});
+    edges.push_back({base + 1, base + 2, 1, 6});
+    edges.push_back({base + 2, base + 3, 1, 6});
+    edges.push_back({base, base + 3, 1, 6});
+  }
+  edges.push_back({0, 4, 1, 6});
+  for (int i : {1, 2, 3}) edges.push_back({i, i + 4, -1, 6});
+  const std::vector<float> sizes(8, 36);
+  EXPECT_THAT(ClusterSignedGraph(sizes, edges), ElementsAre(0, 0, 0, 0, 1, 1, 1, 1));
+  edges.resize(9);
+  EXPECT_THAT(ClusterSignedGraph(sizes, edges), ElementsAre(0, 0, 0, 0, 0, 0, 0, 0));
+}
+
+TEST(ClusterSignedGraph, OfNothingIsNothing) {
+  EXPECT_TRUE(ClusterSignedGraph({}, {}).empty());
+  const std::vector<float> sizes(2, 36);
+  EXPECT_THAT(ClusterSignedGraph(sizes, {}), ElementsAre(0, 1));
+}
+
+Patch PatchAt(const Eigen::Vector3f& centre, const Eigen::Vector3f& normal) {
+  Patch patch;
+  patch.n_cells = 36;
+  patch.centre_C = centre;
+  patch.normal_C = patch.steady_normal_C = normal.normalized();
+  return patch;
+}
+
+TEST(CreaseAngle, IsPositiveWhereConvexAndNegativeWhereConcave) {
+  const Patch left = PatchAt({-0.01f, 0, 1}, {-1, 0, -1}),
+              right = PatchAt({0.01f, 0, 1}, {1, 0, -1});
+  EXPECT_NEAR(CreaseAngle(left, right), 1.5708, 1e-3);
+  const Patch inner_left = PatchAt({-0.01f, 0, 1}, {1, 0, -1});
+  const Patch inner_right = PatchAt({0.01f, 0, 1}, {-1, 0, -1});
+  EXPECT_NEAR(CreaseAngle(inner_left, inner_right), -1.5708, 1e-3);
+  EXPECT_EQ(ConvexityEvidence(left, right), 1);
+  EXPECT_EQ(ConvexityEvidence(inner_left, inner_right), -1);
+}
+
+/// A scene of patches alone: seen from the side, the table below.
+struct PatchesOnly {
+  DepthGrid grid;
+  SurfaceCells cells;
+  SurfacePatches patches;
+  std::vector<PatchEdge> edges;
+  Plane table_C{{0, -1, 0}, 0.3};
+  SensorNoise sensor;
+  PatchScene scene{grid, cells, patches, edges, table_C, sensor};
+  std::vector<int> all;
+
+  void Add(const Eigen::Vector3f& centre, const Eigen::Vector3f& normal) {
+    all.push_back(static_cast<int>(patches.patches.size()));
+    patches.patches.push_back(PatchAt(centre, normal));
+  }
+};
+
+TEST(FitWall, FindsTheAxisAndTheProfileOfABowl) {
+  PatchesOnly bowl;  // radius 4 cm at the table, 2 cm more for each 10 cm of height
+  for (float h : {0.02f, 0.05f, 0.08f}) {
+    for (float angle = -1.2f; angle <= 1.2f; angle += 0.3f) {
+      const float r = 0.04f + 0.2f * h;
+      bowl.Add({0.1f + r * std::sin(angle), 0.3f - h, 0.9f - r * std::cos(angle)},
+               {std::sin(angle), 0.2f, -std::cos(angle)});
+    }
+  }
+  const PlaneAxes axes(bowl.table_C);
+  const auto wall = FitWall(bowl.scene, axes, bowl.all);
+  ASSERT_TRUE(wall);
+  EXPECT_LT((wall->centre - axes(Eigen::Vector3d(0.1, 0.3, 0.9))).norm(), 0.002);
+  EXPECT_NEAR(wall->Radius(0.05), 0.05, 0.002);
+  EXPECT_NEAR(wall->rim_height_m, 0.08, 1e-6);
+}
+
+TEST(FitWall, RefusesTheTwoSidesOfABox) {
+  PatchesOnly box;
+  for (float h : {0.02f, 0.05f, 0.08f}) {
+    for (float t : {0.01f, 0.03f, 0.05f, 0.07f}) {
+      box.Add({t, 0.3f - h, 0.9f + t}, {1, 0, -1});
+      box.Add({-t, 0.3f - h, 0.9f + t}, {-1, 0, -1});
+    }
+  }
+  EXPECT_FALSE(FitWall(box.scene, PlaneAxes(box.table_C), box.all));
+}
+
+}  // namespace
+}  // namespace beckon::perception
