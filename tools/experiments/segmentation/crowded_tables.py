@@ -15,6 +15,7 @@ SHAPES, SHARES = ("box", "cylinder", "vessel", "ball"), (0.5, 0.22, 0.2, 0.08)
 FREE_M = (0.01, 0.05)
 TRIES = 80
 BORDER_PX = 8  # of the image, at 640 x 480; nothing is cut
+MOST_HIDDEN = 0.7  # of the smaller of two things' rectangles in the image
 
 
 class Thing:
@@ -34,6 +35,7 @@ class Thing:
         self.yaw = rng.uniform(0, 2 * numpy.pi)
         self.place = numpy.zeros(2)
         self.bottom = 0.0
+        self.rectangle = None  # in the image, px: left and upper, right and lower
 
     @property
     def height(self):
@@ -87,7 +89,7 @@ def make_table(kind, seed, count=None, scale=1.0):
     view = View(numpy.radians(rng.uniform(34, 46)), rng.uniform(0.85, 1.15))
     wanted = count or rng.integers(fewest, most + 1)
     things = []
-    for _ in range(8 * wanted):
+    for _ in range(12 * wanted):
         if len(things) == wanted:
             break
         how = rng.choice(list(shares), p=list(shares.values())) if things else "free"
@@ -117,7 +119,16 @@ def fits(thing, things, apart_m, view):
             return False
     ends = numpy.vstack([numpy.c_[outline, numpy.full(len(outline), z)] for z in (thing.bottom, thing.top)])
     pixels = view.pixels(ends)
-    return bool((pixels > BORDER_PX).all() and (pixels < numpy.array(view.size) - BORDER_PX).all())
+    thing.rectangle = pixels.min(0), pixels.max(0)
+    if (thing.rectangle[0] < BORDER_PX).any() or (thing.rectangle[1] > numpy.array(view.size) - BORDER_PX).any():
+        return False
+    return all(common(thing.rectangle, other.rectangle) < MOST_HIDDEN for other in things)
+
+
+def common(a, b):
+    """Of rectangles, as a share of the smaller."""
+    sides = numpy.minimum(a[1], b[1]) - numpy.maximum(a[0], b[0])
+    return sides.clip(0).prod() / min((a[1] - a[0]).prod(), (b[1] - b[0]).prod())
 
 
 def free(thing, things, view, rng):

@@ -1,5 +1,6 @@
 """Scenes side by side: the truth, the reference's segments and the fast path's."""
 
+from collections import Counter
 from pathlib import Path
 
 import numpy
@@ -16,9 +17,11 @@ PALETTE = numpy.array([(86, 180, 233), (0, 158, 115), (240, 228, 66), (0, 114, 1
                        (197, 176, 213)], float)
 WRONG = numpy.array([(214, 0, 0), (255, 120, 90), (150, 20, 60)], float)  # no object's segments
 REAL = ("learn4", "learn19", "learn24", "learn28", "learn42")  # of all kinds of scene
+CROWDED = ("touching", "stacked", "mixed")
 TEXT = """\
-Each object has a colour in the truth; a segment has its object's colour where their IoU is at least .5, and is red
-where it is no object's: several merged, a part of one, or none. Grey: in no segment. Times as above."""
+Each object has a colour in the truth. A segment has its object's colour where their IoU is at least .5 and it holds no
+other object; red is what is wrong: objects merged, parts of one, what is no object. Grey: in no segment. Times as above.
+The scenes were chosen before their results were seen."""
 
 
 def pictures(lab, report, scenes, segmented):
@@ -38,13 +41,8 @@ def choose(scenes):
     real = scenes.get("real", [])
     chosen = [scene for scene in real if scene.name in REAL] or real[:5]
     embedded = scenes.get("embedded", [])[:2]
-    crowded = [scene for scene in scenes.get("crowded", []) if scene.kind != "apart"]
-    kinds = {}
-    for scene in crowded:
-        kinds.setdefault(scene.kind, []).append(scene)
-    turns = [scene for turn in zip(*kinds.values()) for scene in turn]
-    turns = turns[1:] + turns[:1]  # stacked and mixed first
-    return (chosen + embedded + turns)[:10]
+    kinds = [[scene for scene in scenes["crowded"] if scene.kind == kind] for kind in CROWDED]
+    return (chosen + embedded + [scene for turn in zip(*kinds) for scene in turn])[:10]
 
 
 def number_word(count):
@@ -61,13 +59,24 @@ def sheet(scenes, segmented):
     draw = ImageDraw.Draw(whole)
     for place, scene in enumerate(scenes):
         left, top = MARGIN + place % columns * width, MARGIN + place // columns * height
-        draw.text((left, top), scene.kind if scene.kind in scene.name else f"{scene.name}, {scene.kind}",
+        draw.text((left, top), scene.name if scene.kind in scene.name else f"{scene.name}, {scene.kind}",
                   "black", font(13, "-Bold"))
         for step, (caption, picture) in enumerate(panels(scene, segmented)):
             x = left + step * (PANEL[0] + GAP)
             draw.text((x, top + 18), caption, "#333333", font(12))
             whole.paste(picture, (x, top + HEAD))
-    return whole.quantize(128, dither=Image.Dither.NONE)
+    return whole.quantize(palette=palette(), dither=Image.Dither.NONE)
+
+
+def palette():
+    """Greys, and shades of each colour: an image of a third of the bytes."""
+    from PIL import Image
+
+    shades = [colour * shade for colour in numpy.vstack([PALETTE, WRONG]) for shade in numpy.linspace(0.3, 1, 14)]
+    greys = numpy.linspace(0, 255, 256 - len(shades))[:, None].repeat(3, 1)
+    image = Image.new("P", (1, 1))
+    image.putpalette(numpy.vstack([shades, greys]).astype(numpy.uint8).tobytes())
+    return image
 
 
 def font(size, style=""):
@@ -85,20 +94,24 @@ def panels(scene, segmented):
     paint = numpy.zeros((max(len(counts), 1), 3))
     paint[seen] = PALETTE[numpy.arange(len(seen)) % len(PALETTE)]
     grey = colours(scene).astype(float).mean(-1)
-    yield f"truth: {len(seen)} objects", draw_segments(grey, objects, paint)
+    box = around(numpy.isin(objects, seen))
+    yield f"truth: {len(seen)} objects", draw_segments(grey, objects, paint, box)
     for path in reversed(PATHS):
         told = segmented[scene, path]
         labels = read_labels(told.labels).astype(int) if told.labels.is_file() else numpy.zeros_like(objects)
-        matched = match(objects, seen, labels)
+        matched, merges = match(objects, seen, labels)
         by_segment = numpy.zeros((labels.max() + 1, 3))
         for segment in range(1, len(by_segment)):
-            by_segment[segment] = paint[matched[segment]] if segment in matched else WRONG[segment % len(WRONG)]
-        yield f"{path}: {len(matched)} found, {told.total_ms:.0f} ms", draw_segments(grey, labels, by_segment)
+            right = segment in matched and segment not in merges
+            by_segment[segment] = paint[matched[segment]] if right else WRONG[segment % len(WRONG)]
+        right = len(matched.keys() - merges)
+        yield f"{path}: {right} of {len(seen)} right, {told.total_ms:.0f} ms", draw_segments(grey, labels, by_segment, box)
 
 
 def match(objects, seen, labels):
-    """Objects of the segments that are theirs; one to one, as no two can share more than half."""
-    matched = {}
+    """Objects of the segments that are theirs, one to one, as no two can share more than half; and the segments that
+    hold more than half of each of several objects."""
+    matched, held = {}, Counter()
     for number in seen:
         inside = objects == number
         segments, common = numpy.unique(labels[inside & (labels > 0)], return_counts=True)
@@ -106,10 +119,24 @@ def match(objects, seen, labels):
             union = inside.sum() + (labels == segment).sum() - pixels
             if pixels > FOUND_IOU * union:
                 matched[int(segment)] = number
-    return matched
+            held[int(segment)] += pixels > 0.5 * inside.sum()
+    return matched, {segment for segment, count in held.items() if count > 1}
 
 
-def draw_segments(grey, labels, paint):
+def around(inside):
+    """Left, upper, right, lower of what is inside, with a margin, in a panel's proportions."""
+    rows, columns = (numpy.flatnonzero(inside.any(axis)) for axis in (1, 0))
+    if not len(rows):
+        return 0, 0, inside.shape[1], inside.shape[0]
+    scale = min(max((columns[-1] - columns[0]) / PANEL[0], (rows[-1] - rows[0]) / PANEL[1]) * 1.25,
+                inside.shape[1] / PANEL[0], inside.shape[0] / PANEL[1])
+    width, height = scale * PANEL[0], scale * PANEL[1]
+    left = min(max(0.5 * (columns[0] + columns[-1] - width), 0), inside.shape[1] - width)
+    top = min(max(0.5 * (rows[0] + rows[-1] - height), 0), inside.shape[0] - height)
+    return left, top, left + width, top + height
+
+
+def draw_segments(grey, labels, paint, box):
     """Paints the segments over the image, with outlines, at the size of a panel."""
     from PIL import Image
 
@@ -121,4 +148,4 @@ def draw_segments(grey, labels, paint):
     shade = 0.45 + 0.55 * grey[..., None] / 255
     picture = numpy.where(inside[..., None], paint[labels] * shade, 0.55 * grey[..., None] + 90)
     picture[edge] = numpy.where(inside[edge][:, None], 0.35 * paint[labels[edge]], picture[edge])
-    return Image.fromarray(picture.clip(0, 255).astype(numpy.uint8)).resize(PANEL, Image.Resampling.BOX)
+    return Image.fromarray(picture.clip(0, 255).astype(numpy.uint8)).resize(PANEL, Image.Resampling.BOX, box)

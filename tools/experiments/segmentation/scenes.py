@@ -53,7 +53,8 @@ def embedded_scenes(capture, folder, quick):
                               capture_output=True, text=True)
         if done.returncode != 0:
             raise LabError(f"{capture.name} --render: {(done.stderr.strip() or 'failed').splitlines()[-1]}")
-        scenes += [Scene(f"{seed}-{path.stem}", "embedded", path) for path in sorted(out.glob("*.pcd"))]
+        scenes += [Scene(f"seed {seed}, frame {int(path.stem)}", "embedded", path)
+                   for path in sorted(out.glob("*.pcd"))]
     return scenes
 
 
@@ -64,7 +65,7 @@ def crowded_scenes(folder, quick):
     for kind in KINDS:
         for number in range(1 if quick else CROWDED_SCENES):
             table = make_table(kind, CROWDED_SEED + number)
-            scenes.append(Scene(f"{kind} {number}", kind, write_frame(folder / f"{kind}-{number}", table)))
+            scenes.append(Scene(f"{kind} {number + 1}", kind, write_frame(folder / f"{kind}-{number}", table)))
     return scenes
 
 

@@ -9,7 +9,7 @@ from segmentation.scores import HEADINGS, THRESHOLDS, cells, curves, of_path
 
 GLANCE_TEXT = """\
 {sentence} *Ratio*: median over the scenes of the reference's time over the fast path's, both measured one after the
-other; it says what it says on any machine, idle or busy."""
+other."""
 TEXTS = {
     "real": """\
 {scenes} table scenes of the Object Segmentation Database, Kinect, 640x480. Truth: whole objects, drawn by its
@@ -20,8 +20,7 @@ none on another, none mostly hidden, in a room with walls and a floor.""",
     "crowded": """\
 {scenes} tables of boxes, cylinders, open vessels and balls, in a room, through a camera with the noise, quantisation,
 shadows and lost edges of structured light. *Touching*: slid until they meet, half of the boxes side to side. *Stacked*:
-most stand on another. *Occluded*: most stand 1-6 cm behind another. *Mixed*: all of that, 11-17 things. Neither path was
-tuned on them.""",
+most stand on another. *Occluded*: most stand 1-6 cm behind another. *Mixed*: all of that, 11-17 things.""",
 }
 TITLES = {"real": "Real scenes", "embedded": "Frames of the embedded scene", "crowded": "Crowded tables"}
 

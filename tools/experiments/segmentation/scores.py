@@ -1,6 +1,7 @@
 """The scorer's word on segmentations, scene by scene and together."""
 
 import importlib
+import importlib.util
 import signal
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -34,8 +35,11 @@ class Scorer:
         self.summary = _module(self.folder).summary
 
     @staticmethod
-    def is_in(folder):
-        return (Path(folder) / f"{SCORER}.py").is_file()
+    def what_is_missing(folder):
+        """Why there can be no scores; empty: nothing is missing."""
+        if not (Path(folder) / f"{SCORER}.py").is_file():
+            return f"the scorer is not in {folder}; set BECKON_SEGMENTATION_TOOLS"
+        return "" if importlib.util.find_spec("cv2") else "the scorer needs OpenCV; install python3-opencv"
 
 
 def judge(lab, scorer, what, segmented):

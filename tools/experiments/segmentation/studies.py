@@ -11,8 +11,8 @@ def run_all(lab, report, tools_folder, data, capture):
     """Whether nothing was left out."""
     scenes = gather(lab, report, data, capture)
     segmented = {name: lab.segment(score_studies.TITLES[name].lower(), some) for name, some in scenes.items()}
-    has_scorer = Scorer.is_in(tools_folder)
-    if has_scorer:
+    missing = Scorer.what_is_missing(tools_folder)
+    if not missing:
         scorer = Scorer(tools_folder)
         judged = {name: judge(lab, scorer, score_studies.TITLES[name].lower(), some)
                   for name, some in segmented.items()}
@@ -22,12 +22,12 @@ def run_all(lab, report, tools_folder, data, capture):
         for name, scores in judged.items():
             score_studies.section(report, scorer, name, scores, segmented[name], seeds=", ".join(map(str, seeds)))
     else:
-        report.skip("all scores", f"the scorer is not in {tools_folder}; set BECKON_SEGMENTATION_TOOLS")
+        report.skip("all scores", missing)
     timed = next(iter(scenes))
     time_per_step(report, score_studies.TITLES[timed].lower(), segmented[timed])
     growth(lab, report)
     pictures(lab, report, scenes, {key: told for some in segmented.values() for key, told in some.items()})
-    return has_scorer and len(scenes) == 3
+    return not missing and len(scenes) == 3
 
 
 def gather(lab, report, data, capture):

@@ -15,8 +15,9 @@ COUNTS = (1, 2, 4, 8, 12, 16, 20)
 SEED, SCENES = 8301, 4  # of each size and number
 RESOLUTION_OBJECTS = 8
 STEPS_TEXT = """\
-Medians over {scenes} scenes ({what}), ms, on a machine with {machine}. Other work on the machine shows in the times and
-hardly in the ratio: {ratio:.0f} (middle half of the scenes: {low:.0f} to {high:.0f})."""
+Medians over {scenes} scenes ({what}), ms, on a machine with {machine}. Each is a
+median of repeats on warm memory. Reference over fast, scene by scene: {ratio:.0f} (middle half of the scenes: {low:.0f} to
+{high:.0f})."""
 GROWTH_TEXT = """\
 Mixed crowded tables: the same {scenes} tables of {objects} things at each resolution; {scenes} tables of each number of
 things, at 640x480. Medians. The exponent is the slope in the logarithms, over the number of pixels."""
