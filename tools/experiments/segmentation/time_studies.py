@@ -33,7 +33,7 @@ def time_per_step(report, what, segmented):
     totals = {path: [told.total_ms for (_, one), told in segmented.items() if one == path] for path in PATHS}
     low, middle, high = numpy.percentile(numpy.array(totals["reference"]) / totals["fast"], (25, 50, 75))
     parts = [STEPS_TEXT.format(scenes=len(totals["fast"]), what=what, machine=machine(), ratio=middle, low=low,
-                               high=high), plot_steps(report, steps)]
+                               high=high), plot_steps(report, steps, totals)]
     for path in PATHS:
         p50, p95 = numpy.percentile(totals[path], (50, 95))
         parts.append(table([f"`{path}`", *steps[path], "total", "total, p95"],
@@ -41,14 +41,14 @@ def time_per_step(report, what, segmented):
     report.section("Time per step", *parts)
 
 
-def plot_steps(report, steps):
+def plot_steps(report, steps, totals):
     figure, axes = plots.panels(2, width=5.4, height=2.6)
     for axis, path in zip(axes, PATHS):
         names, times = list(steps[path]), list(steps[path].values())
         axis.barh(names[::-1], times[::-1], color=plots.STYLES[path][0])
         for place, ms in enumerate(times[::-1]):
             axis.text(ms, place, f" {ms:.1f}", va="center", fontsize=8)
-        axis.set(title=f"{path}: {sum(times):.1f} ms", xlabel="ms", xlim=(0, 1.15 * max(times)))
+        axis.set(title=f"{path}: {numpy.median(totals[path]):.1f} ms in all", xlabel="ms", xlim=(0, 1.15 * max(times)))
         axis.grid(axis="y", visible=False)
     return plots.save(figure, report, "steps", "Median time of each step of both paths")
 
@@ -90,12 +90,12 @@ def medians(lab, what, scenes):
 def plot_growth(report, by_size, by_number):
     figure, axes = plots.panels(2, width=4.8, sharey=True)
     for path in PATHS:
-        pixels = [640 * 480 * scale ** 2 / 1e6 for scale in by_size]
-        plots.line(axes[0], pixels, [told[path] for told in by_size.values()], name=path)
+        plots.line(axes[0], list(by_size), [told[path] for told in by_size.values()], name=path)
         plots.line(axes[1], list(by_number), [told[path] for told in by_number.values()], name=path)
-    axes[0].set(xscale="log", yscale="log", xlabel="megapixels", ylabel="time a frame, ms", title="resolution")
+    axes[0].set(xscale="log", yscale="log", xlabel="pixels", ylabel="time a frame, ms", title="resolution")
     axes[1].set(xlabel="objects", title="number of objects", ylim=(1, None))
-    plots.plain_numbers(axes[0].xaxis, [round(x, 2) for x in pixels])
+    plots.plain_numbers(axes[0].xaxis, list(by_size))
+    axes[0].set_xticklabels([f"{640 * scale:.0f}x{480 * scale:.0f}" for scale in by_size])
     plots.plain_numbers(axes[0].yaxis, (1, 3, 10, 30, 100, 300, 1000, 3000))
     plots.legend_below(figure, axes[0], 2)
     return plots.save(figure, report, "growth", "Time of both paths against resolution and number of objects")
