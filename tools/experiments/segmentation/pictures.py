@@ -20,8 +20,9 @@ REAL = ("learn4", "learn19", "learn24", "learn28", "learn42")  # of all kinds of
 CROWDED = ("touching", "stacked", "mixed")
 TEXT = """\
 Each object has a colour in the truth. A segment has its object's colour where their IoU is at least .5 and it holds no
-other object; red is what is wrong: objects merged, parts of one, what is no object. Grey: in no segment. Times as above.
-Real scenes and crowded tables were chosen by their kind, frames of the embedded scene by the number of their objects."""
+other object; red is what is wrong: objects merged, parts of one, what is no object. Grey: in no segment. Times as
+above. Real scenes and crowded tables were chosen by their kind, frames of the embedded scene by the number of their
+objects."""
 
 
 def pictures(lab, report, scenes, segmented):
@@ -105,7 +106,8 @@ def panels(scene, segmented):
             right = segment in matched and segment not in merges
             by_segment[segment] = paint[matched[segment]] if right else WRONG[segment % len(WRONG)]
         right = len(matched.keys() - merges)
-        yield f"{path}: {right} of {len(seen)} right, {told.total_ms:.0f} ms", draw_segments(grey, labels, by_segment, box)
+        yield (f"{path}: {right} of {len(seen)} right, {told.total_ms:.0f} ms",
+               draw_segments(grey, labels, by_segment, box))
 
 
 def match(objects, seen, labels):

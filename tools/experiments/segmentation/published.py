@@ -27,10 +27,10 @@ the same sources make the same figures, but for times. The real scenes and the s
 (`--data`, `BECKON_DATA`; `--segmentation-tools`, `BECKON_SEGMENTATION_TOOLS`).
 
 Measured: {version}, by `{command}`. Segments are matched one to one to objects by the largest total IoU. *Mean IoU*: of
-all objects, 0 for those that are not matched. *Split*: objects that hold several segments. *Merges*: segments that cover
-at least half of each of several objects, and how many objects those are. *Missed*: objects of which less than a tenth is
-in any segment. Objects lower than 2 cm, or of which fewer than 200 pixels are seen, are not judged. Times are of one
-thread.""",
+all objects, 0 for those that are not matched. *Split*: objects that hold several segments. *Merges*: segments that
+cover at least half of each of several objects, and how many objects those are. *Missed*: objects of which less than a
+tenth is in any segment. Objects lower than 2 cm, or of which fewer than 200 pixels are seen, are not judged. Times are
+of one thread.""",
     goals="\"must\" and \"aim\" are the design's. They will be judged on other, harder scenes of the same database, to "
           "which the first column belongs; the crowded tables are made to be harder than the real scenes at hand. "
           "Judged at the decimals shown.",

@@ -16,8 +16,8 @@ SEED, SCENES = 8301, 4  # of each size and number
 RESOLUTION_OBJECTS = 8
 STEPS_TEXT = """\
 Medians over {scenes} scenes ({what}), ms, on a machine with {machine}. Each is a
-median of repeats on warm memory. Reference over fast, scene by scene: {ratio:.0f} (middle half of the scenes: {low:.0f} to
-{high:.0f}). Where other programs interrupt most repeats, though few of their steps, the total is longer than the steps
+median of repeats on warm memory. Reference over fast, scene by scene: {ratio:.0f} (middle half of the scenes: {low:.0f}
+to {high:.0f}). Where other programs interrupt most repeats, though few of their steps, the total is longer than the steps
 together."""
 GROWTH_TEXT = """\
 Mixed crowded tables: the same {scenes} tables of {objects} things at each resolution; {scenes} tables of each number of
