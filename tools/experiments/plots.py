@@ -13,6 +13,7 @@ STYLES = {  # name: (colour, marker)
     "random-scene": (PURPLE, "v"), "random": (BLACK, "x"),
     "multiscale": (ORANGE, "D"), "multiscale, smoothed": (GREEN, "s"), "classic": (VERMILION, "^"),
     "hierarchical": (PURPLE, "v"), "adaptive, neighbourhood known": (SKY, "s"),
+    "fast": (BLUE, "o"), "reference": (VERMILION, "^"),
 }
 PROGRAMS = {  # published ones, dashed
     "Duncan 2013": (ORANGE, "D"), "Duncan 2013, not smoothed": (YELLOW, "d"), "superquadric-lib": (BLACK, "x"),
