@@ -5,6 +5,7 @@
 #include <map>
 
 #include "services/perception/grouping_rules.h"
+#include "services/perception/neck_rule.h"
 #include "services/perception/occlusion_rule.h"
 #include "services/perception/vessel_rule.h"
 
@@ -75,6 +76,7 @@ Grouping GroupPatches(const PatchScene& scene) {
   }
   PatchGroups groups(ClusterSignedGraph(sizes, evidence));
   std::vector<Vessel> vessels = JoinInsides(scene, groups);
+  JoinNecks(scene, groups);
   JoinAcrossOccluders(scene, groups);
   JoinFragments(scene, groups);
   return {std::move(groups), std::move(vessels)};

@@ -44,9 +44,9 @@ struct Grouping {
   std::vector<Vessel> vessels;
 };
 
-/// The object of each patch, in four steps: local evidence (grouping_rules.h), insides to their
-/// vessels (vessel_rule.h), what an occluder cut apart (occlusion_rule.h), fragments to what they
-/// touch.
+/// The object of each patch, in five steps: local evidence (grouping_rules.h), insides to their
+/// vessels (vessel_rule.h), necks to their bottles (neck_rule.h), what an occluder cut apart
+/// (occlusion_rule.h), fragments to what they touch.
 Grouping GroupPatches(const PatchScene& scene);
 
 /// Joins groups of less than `kFragment_m2` to the one they share the longest border with.

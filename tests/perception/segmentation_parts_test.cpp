@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "services/perception/depth_smoothing.h"
 #include "services/perception/flat_blocks.h"
 #include "services/perception/grouping_rules.h"
+#include "services/perception/neck_rule.h"
 #include "services/perception/region_clustering.h"
 #include "services/perception/table_planes.h"
 #include "services/perception/vessel_rule.h"
@@ -162,6 +164,33 @@ TEST(FitWall, RefusesTheTwoSidesOfABox) {
     }
   }
   EXPECT_FALSE(FitWall(box.scene, PlaneAxes(box.table_C), box.all));
+}
+
+/// The patches of an upright cylinder around (x, 0.9) seen from the origin.
+void AddCylinder(PatchesOnly& scene, float x, float radius, std::initializer_list<float> heights) {
+  for (float h : heights) {
+    for (float angle = -1.2f; angle <= 1.2f; angle += 0.4f) {
+      scene.Add({x + radius * std::sin(angle), 0.3f - h, 0.9f - radius * std::cos(angle)},
+                {std::sin(angle), 0, -std::cos(angle)});
+    }
+  }
+}
+
+TEST(JoinNecks, JoinsWhatIsSlimAndOnTheAxisOnly) {
+  for (const auto& [x, n_groups] : {std::pair(0.0f, 1), std::pair(0.015f, 2)}) {
+    PatchesOnly bottle;
+    AddCylinder(bottle, 0, 0.04f, {0.02f, 0.06f, 0.10f});
+    const auto n_body = bottle.all.size();
+    AddCylinder(bottle, x, 0.014f, {0.13f, 0.15f});
+    std::vector<int> group(bottle.all.size(), 0);
+    std::fill(group.begin() + static_cast<std::ptrdiff_t>(n_body), group.end(), 1);
+    PatchEdge edge{static_cast<int>(n_body) - 1, static_cast<int>(n_body)};
+    edge.n_touching = 5;
+    bottle.edges.push_back(edge);
+    PatchGroups groups(group);
+    JoinNecks(bottle.scene, groups);
+    EXPECT_EQ(groups.Members(1).empty(), n_groups == 1) << x;
+  }
 }
 
 }  // namespace
