@@ -12,15 +12,16 @@ namespace {
 struct CountingPerceiver {
   std::atomic<int> calls = 0;
   Perceiver perceiver;
-  explicit CountingPerceiver(int threads = 1)
-      : perceiver({.threads = threads}, [this](const ObjectView& view) {
-          ++calls;
-          Categorisation c;
-          c.probabilities = {{"Box", 0.75f}, {"Can", 0.25f}};
-          c.confidence = static_cast<float>(view.pixels.size() % 100) / 100;
-          c.ask_user = false;
-          return c;
-        }) {}
+  explicit CountingPerceiver(int threads = 1, SegmentationMethod method = SegmentationMethod::kFast)
+      : perceiver({.segmentation = {.method = method}, .threads = threads},
+                  [this](const ObjectView& view) {
+                    ++calls;
+                    Categorisation c;
+                    c.probabilities = {{"Box", 0.75f}, {"Can", 0.25f}};
+                    c.confidence = static_cast<float>(view.pixels.size() % 100) / 100;
+                    c.ask_user = false;
+                    return c;
+                  }) {}
 };
 
 TEST(Perceiver, CategorisesAnObjectOnceWhileItsViewStays) {
@@ -50,12 +51,17 @@ TEST(Perceiver, LooksAnewAtTheObjectThatMoved) {
 }
 
 TEST(Perceiver, LooksAnewAtTheObjectThatChanged) {
-  CountingPerceiver counting;
-  BoxWorld world = ThreeBoxes();
-  counting.perceiver.Perceive(world.Render());
-  world.boxes[3].high.z() += 0.02;  // 6 cm tall before: its centroid stays within a centimetre
-  counting.perceiver.Perceive(world.Render());
-  EXPECT_EQ(counting.calls, 4);
+  // 6 cm tall before, of which the reference sees the upper 5: its centroid stays within a
+  // centimetre.
+  for (const auto& [method, growth_m] :
+       {std::pair(SegmentationMethod::kReference, 0.015), {SegmentationMethod::kFast, 0.02}}) {
+    CountingPerceiver counting(1, method);
+    BoxWorld world = ThreeBoxes();
+    counting.perceiver.Perceive(world.Render());
+    world.boxes[3].high.z() += growth_m;
+    counting.perceiver.Perceive(world.Render());
+    EXPECT_EQ(counting.calls, 4) << Name(method);
+  }
 }
 
 TEST(Perceiver, ThreadsChangeNothing) {
