@@ -25,11 +25,9 @@ void AddOptions(CLI::App& app, Options& o) {
   auto* input = app.add_option("--input", o.offline.input,
                                "Perceive this cloud (.pcd, .ply) and leave; no bus");
   app.add_option("--segmentation", o.overrides.segmentation, "How to segment: fast or reference");
-  app.add_flag("--no-categories", o.overrides.no_categories,
-               "Do not say of which category objects are");
+  app.add_flag("--no-categories", o.overrides.no_categories, "Do not categorise objects");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
-  app.add_flag("--list-categories", o.list_categories,
-               "Print the categories the model knows, one a line, and leave");
+  app.add_flag("--list-categories", o.list_categories, "Print the model's categories and leave");
   app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));
   app.add_option("--json", o.offline.json_file, "The result (default: standard output)");
@@ -37,9 +35,8 @@ void AddOptions(CLI::App& app, Options& o) {
   auto* picture = app.add_option("--picture", o.offline.picture_file,
                                  "The image with named objects and the time of each step");
   app.add_option("--stage", o.offline.stage,
-                 "The picture shows what this step of segmentation made: grid, table, surface, "
-                 "patches, grouping, labels (fast); range_voxels, normals (if used), plane, hull, "
-                 "prism, clusters, labels (reference)")
+                 "What this step made, as the picture: grid, table, surface, patches, grouping, "
+                 "labels (fast); range_voxels, normals, plane, hull, prism, clusters, labels")
       ->needs(picture);
   app.add_option("--repeat", o.offline.repeat, "Compute this often, tell the median times")
       ->check(CLI::Range(1, 100000));

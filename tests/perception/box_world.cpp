@@ -98,6 +98,13 @@ WorldBox Standing(double x, double y, double size_x, double size_y, double size_
       {x - size_x / 2, y - size_y / 2, 0}, {x + size_x / 2, y + size_y / 2, size_z}, {60, 90, 200}};
 }
 
+WorldBox At(double x, double y, double z, double size_x, double size_y, double size_z) {
+  WorldBox box = Standing(x, y, size_x, size_y, size_z);
+  box.low.z() += z;
+  box.high.z() += z;
+  return box;
+}
+
 BoxWorld ThreeBoxes() {
   BoxWorld world;
   world.boxes = {Table(), Standing(-0.2, 0.6, 0.1, 0.08, 0.12),

@@ -40,6 +40,10 @@ struct BoxWorld {
 WorldBox Table();
 /// A box of the given size standing at (x, y) on the table.
 WorldBox Standing(double x, double y, double size_x, double size_y, double size_z);
+/// The same with its lower face at z.
+WorldBox At(double x, double y, double z, double size_x, double size_y, double size_z);
+/// A camera's noise at 1 m (BoxWorld::noise_m), about a Kinect's.
+inline constexpr double kKinectNoise_m = 0.0015;
 /// The table with three boxes on it, well apart.
 BoxWorld ThreeBoxes();
 
