@@ -11,6 +11,7 @@
 #include "services/pose/silhouette.h"
 #include "services/pose/starts.h"
 #include "services/pose/surface.h"
+#include "services/pose/visibility.h"
 
 namespace beckon::pose {
 namespace {
@@ -232,39 +233,6 @@ ParameterMatrix InformationOf(const Candidate& c, size_t n_points, const Adaptiv
          (witnesses / variance);
 }
 
-// Whether the side of the shape that faces the camera reaches `gap_m` lower than the points do: its
-// foot is hidden behind another object, or it stands on one, and how far down it goes is not known.
-bool FootIsUnseen(const Superquadric& shape, const PointList& points, const TableTopScene& scene,
-                  double gap_m) {
-  constexpr int kSamples = 150;
-  constexpr double kGrazing = 0.14;  // sine of the angle below which cameras see little
-  if (!scene.table) return false;
-  std::vector<double> heights;
-  for (const auto& p : points) heights.push_back(scene.table->Distance(p));
-  const auto low = heights.begin() + static_cast<long>(heights.size() / 50);
-  std::nth_element(heights.begin(), low, heights.end());
-  for (const Eigen::Vector3d& p : SampleSurface(shape, kSamples)) {
-    if (scene.table->Distance(p) > *low - gap_m) continue;
-    const Eigen::Vector3d normal_F =
-        shape.X_FO.linear() * NormalAt(shape, shape.X_FO.inverse() * p);
-    if (normal_F.dot((p - scene.viewpoint).normalized()) < -kGrazing) return true;
-  }
-  return false;
-}
-
-// The height above the table of the highest point, but for a few that fly.
-double SeenTop(const SpreadPoints& spread, const std::optional<Plane>& table) {
-  if (!table) return 0;
-  std::vector<double> heights;
-  for (size_t i = 0; i < spread.points.size(); ++i) {
-    if (spread.weights[i] > 0.9) heights.push_back(table->Distance(spread.points[i]));
-  }
-  if (heights.empty()) return 0;
-  const auto top = heights.end() - 1 - static_cast<long>(heights.size() / 100);
-  std::nth_element(heights.begin(), top, heights.end());
-  return *top;
-}
-
 }  // namespace
 
 MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>& table_F,
@@ -272,8 +240,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
                           const AdaptiveConfig& config) {
   const SpreadPoints spread = SpreadEvenly(points_F, config.fine_points);
   const std::vector<Superquadric> starts = Starts(spread.points, table_F);
-  const TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum(),
-                            SeenTop(spread, table_F)};
+  TableTopScene scene{table_F, viewpoint_F, starts[0].semi_axes.array().log().sum()};
+  if (table_F) scene.top_m = SeenTop(spread, *table_F);
   const Silhouette silhouette =
       TraceSilhouette(points_F, rim_F, viewpoint_F, table_F,
                       {config.outline_rays, config.pixel_rad, config.table_margin_m});
@@ -299,7 +267,8 @@ MethodOutcome FitAdaptive(const PointList& points_F, const std::optional<Plane>&
   }
   // How far it goes on behind a cut is a guess.
   outcome.ambiguous = !outcome.alternatives.empty() || !best.view->cuts.empty() ||
-                      FootIsUnseen(outcome.shape, spread.points, scene, config.unseen_foot_m);
+                      (table_F && FootIsUnseen(outcome.shape, spread.points, *table_F, viewpoint_F,
+                                               config.unseen_foot_m));
   return outcome;
 }
 

@@ -10,6 +10,7 @@
 #include "services/base/rim.h"
 #include "services/pose/distance_kernel.h"
 #include "services/pose/fit_stage.h"
+#include "services/pose/outline_straights.h"
 
 namespace beckon::pose {
 
@@ -17,14 +18,6 @@ struct SilhouetteConfig {
   int most_rays = 96;
   double pixel_rad = 1.0 / 525;   // the outline runs half a pixel outside the outermost points
   double table_margin_m = 0.015;  // outline this near the table is the table's doing
-};
-
-/// A straight piece of the outline: the edge of a box, or where something cuts the object off.
-struct Straight {
-  std::vector<int> rays;       // indices
-  Eigen::Vector3d normal_F;    // of the plane through the viewpoint and the piece; unit, outward
-  double mean_square_rad = 0;  // of the rays about that plane
-  double width_rad = 0;        // of the object as seen, across the piece
 };
 
 struct Silhouette {
