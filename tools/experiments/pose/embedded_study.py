@@ -14,7 +14,7 @@ from pose.scene_files import positions, read_pcd
 from pose.summaries import pair, shown
 from report import table
 
-SEED, FRAMES = 7001, 20
+SEED, FRAMES = 7101, 20
 FIGURES = {"centre_mm": "centre, mm", "top_mm": "top, mm", "radial_mm": "radial, mm"}
 TEXT = """\
 {objects} objects of the 11 categories in {frames} frames of the embedded scene (`beckon-capture --render --seed

@@ -7,7 +7,7 @@ from pose.method_studies import side_by_side
 from pose.real_study import real_clusters
 from pose.size_studies import number_of_points, voxel_sizes
 
-SEEDS = (7001, 7002, 7003)
+SEEDS = (7101, 7102, 7103)
 COUNT = 60  # clouds a set and seed
 
 
