@@ -4,18 +4,24 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 namespace beckon::perception {
 namespace {
 
 constexpr size_t kFewestPatches = 5;
-constexpr double kSteepest = 0.9;      // of the normal's height, for a wall
-constexpr double kLeastArc = 1.0;      // rad of the circle that must be seen
-constexpr double kMostOff_m = 0.0015;  // beside the noise
-constexpr double kMostTurn = 0.2;      // rad
+constexpr double kSteepest = 0.9;        // of the normal's height, for a wall
+constexpr double kLeastArc = 1.0;        // rad of the circle that must be seen
+constexpr double kMostOff_m = 0.0015;    // beside the noise
+constexpr double kMostTurn = 0.2;        // rad
+constexpr double kMostPatchTurn = 0.45;  // of a single patch
 constexpr double kMinRadius_m = 0.015, kMaxRadius_m = 0.16;
 constexpr double kTolerance_m = 0.006;
-constexpr double kUpright = 0.5;                          // least height of the normal of a bottom
+constexpr double kUpright = 0.5;       // least height of the normal of a bottom
+constexpr double kBelowFoot_m = 0.02;  // of a patch on the wall: a patch is as wide
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kThickWall_m = 0.01, kThickWall = 0.12;  // and a part of the radius
 
 /// A patch as seen from above.
@@ -121,11 +127,15 @@ class RevolutionFit {
     for (const auto& p : wall_) sum += p.sigma_m;
     return sum / static_cast<double>(wall_.size());
   }
-  /// The wall with its rim left open; radii are positive.
+  /// The wall with foot and rim left open; radii are positive.
   Wall Found() const {
     const double side = Radius(mean_height_) < 0 ? -1 : 1, k = 1 / 0.05, m = mean_height_;
     const double a = x_[2], b = x_[3] * k, c = x_[4] * k * k;  // about the mean height
-    return {x_.head<2>(), side * Eigen::Vector3d(a - b * m + c * m * m, b - 2 * c * m, c), 0};
+    Wall wall;
+    wall.centre = x_.head<2>();
+    wall.profile = side * Eigen::Vector3d(a - b * m + c * m * m, b - 2 * c * m, c);
+    wall.is_inside = side < 0;
+    return wall;
   }
 
  private:
@@ -175,6 +185,8 @@ std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
   if (fit.MeanOff() > kMostOff_m + fit.MeanSigma()) return std::nullopt;
   if (fit.MeanTurn() > kMostTurn) return std::nullopt;
   Wall wall = fit.Found();
+  wall.foot_height_m = kInfinity;
+  for (const auto& p : patches) wall.foot_height_m = std::min(wall.foot_height_m, p.height_m);
   for (int i : members) {
     const Eigen::Vector3d p = scene.patches.patches[i].centre_C.cast<double>();
     wall.rim_height_m = std::max(wall.rim_height_m, scene.table_C.Distance(p));
@@ -184,22 +196,104 @@ std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
   return wall;
 }
 
+namespace {
+
+/// Whether the camera sees a place below the rim through the rim.
+bool IsSeenThroughRim(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
+                      const Eigen::Vector3d& p, double height_m) {
+  const double camera_m = scene.table_C.offset_m;
+  if (camera_m <= wall.rim_height_m || height_m >= camera_m) return false;
+  const double part = (camera_m - wall.rim_height_m) / (camera_m - height_m);
+  const double from_axis_m = (axes(p * std::min(part, 1.0)) - wall.centre).norm();
+  return from_axis_m < wall.Radius(wall.rim_height_m) + kTolerance_m;
+}
+
+}  // namespace
+
 bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
               const Patch& patch) {
   const Eigen::Vector3d p = patch.centre_C.cast<double>();
   const double height_m = scene.table_C.Distance(p);
   if (height_m > wall.rim_height_m + kTolerance_m) return false;
-  const double distance_m = (axes(p) - wall.centre).norm();
-  const double outside_m = distance_m - wall.Radius(height_m);
+  const double outside_m = (axes(p) - wall.centre).norm() - wall.Radius(height_m);
   if (outside_m > kTolerance_m) return false;
+  if (height_m > wall.foot_height_m - kBelowFoot_m && -outside_m < kTolerance_m) return true;
   const double slope = patch.normal_C.cast<double>().dot(scene.table_C.normal);
   const double thick_m = kThickWall_m + kThickWall * wall.Radius(wall.rim_height_m);
-  return slope > kUpright || -outside_m < thick_m;
+  return (slope > kUpright || -outside_m < thick_m) &&
+         IsSeenThroughRim(scene, axes, wall, p, height_m);
 }
+
+namespace {
+
+/// Joins to group g what lies within its wall. Returns whether anything does.
+bool JoinWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, int g,
+                PatchGroups& groups) {
+  std::vector<int> n_inside(groups.Count(), 0);
+  for (size_t i = 0; i < scene.patches.patches.size(); ++i) {
+    n_inside[groups.Of(static_cast<int>(i))] +=
+        IsWithin(scene, axes, wall, scene.patches.patches[i]);
+  }
+  bool any = false;
+  for (int other = 0; other < groups.Count(); ++other) {
+    const auto n = static_cast<int>(groups.Members(other).size());
+    if (other == g || n == 0 || n_inside[other] * 10 < n * 8) continue;
+    groups.Join(g, other);
+    any = true;
+  }
+  return any;
+}
+
+/// The pairs of groups that touch, each once.
+std::vector<std::pair<int, int>> TouchingGroups(const PatchScene& scene,
+                                                const PatchGroups& groups) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const PatchEdge& edge : scene.edges) {
+    const int a = groups.Of(edge.a), b = groups.Of(edge.b);
+    if (a != b && edge.n_touching >= 2) pairs.emplace_back(std::min(a, b), std::max(a, b));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+/// Whether most of a group's wall patches lie on a wall and face the way it does.
+bool LiesOn(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall,
+            const std::vector<int>& members) {
+  const auto patches = WallOf(scene, axes, members);
+  const auto n_on = std::ranges::count_if(patches, [&](const WallPatch& p) {
+    const Eigen::Vector2d radial = p.place - wall.centre;
+    const double off_m = std::abs(radial.norm() - wall.Radius(p.height_m));
+    const double turn = (wall.is_inside ? -1 : 1) * radial.normalized().dot(p.outward);
+    return off_m < kMostOff_m + p.sigma_m && turn > std::cos(kMostPatchTurn);
+  });
+  return n_on * 10 >= static_cast<std::ptrdiff_t>(patches.size()) * 8;
+}
+
+/// The inside that two groups make together.
+std::optional<Wall> CommonInside(const PatchScene& scene, const PlaneAxes& axes,
+                                 const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> both;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  auto wall = FitWall(scene, axes, both);
+  const bool fits =
+      wall && wall->is_inside && LiesOn(scene, axes, *wall, a) && LiesOn(scene, axes, *wall, b);
+  return fits ? wall : std::nullopt;
+}
+
+}  // namespace
 
 std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
   const PlaneAxes axes(scene.table_C);
   std::vector<Vessel> vessels;
+  for (const auto& [a, b] : TouchingGroups(scene, groups)) {
+    if (groups.Members(a).empty() || groups.Members(b).empty()) continue;
+    const auto wall = CommonInside(scene, axes, groups.Members(a), groups.Members(b));
+    if (!wall) continue;
+    groups.Join(a, b);
+    JoinWithin(scene, axes, *wall, a, groups);
+    vessels.push_back({groups.Members(a).front(), *wall});
+  }
   std::vector<int> order;
   for (int g = 0; g < groups.Count(); ++g) order.push_back(g);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -209,19 +303,8 @@ std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
     if (groups.Members(g).size() < kFewestPatches) continue;
     const auto wall = FitWall(scene, axes, groups.Members(g));
     if (!wall) continue;
-    std::vector<int> n_inside(groups.Count(), 0);
-    for (size_t i = 0; i < scene.patches.patches.size(); ++i) {
-      n_inside[groups.Of(static_cast<int>(i))] +=
-          IsWithin(scene, axes, *wall, scene.patches.patches[i]);
-    }
-    for (int other = 0; other < groups.Count(); ++other) {
-      const auto n = static_cast<int>(groups.Members(other).size());
-      if (other == g || n == 0 || n_inside[other] * 10 < n * 8) continue;
-      if (vessels.empty() || groups.Of(vessels.back().patch) != g) {
-        vessels.push_back({groups.Members(g).front(), *wall});
-      }
-      groups.Join(g, other);
-    }
+    const int patch = groups.Members(g).front();
+    if (JoinWithin(scene, axes, *wall, g, groups)) vessels.push_back({patch, *wall});
   }
   return vessels;
 }

@@ -1,6 +1,7 @@
 // Joins the inside of an upright round vessel to its outer wall.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -10,14 +11,17 @@
 namespace beckon::perception {
 
 /// The wall of a body of revolution with a vertical axis, in the table's PlaneAxes: at height h
-/// above the table its radius is r0 + r1 h + r2 h^2, up to the rim.
+/// above the table its radius is r0 + r1 h + r2 h^2, from where it was seen lowest up to the rim.
 struct Wall {
   Eigen::Vector2d centre{0, 0};
   Eigen::Vector3d profile{0, 0, 0};  // r0, r1, r2
-  double rim_height_m = 0;
+  double foot_height_m = 0, rim_height_m = 0;
+  bool is_inside = false;  // seen from the axis
 
+  /// As at the foot or the rim beyond them: the profile is known no further.
   double Radius(double height_m) const {
-    return profile.dot(Eigen::Vector3d(1, height_m, height_m * height_m));
+    const double h = std::clamp(height_m, foot_height_m, rim_height_m);
+    return profile.dot(Eigen::Vector3d(1, h, h * h));
   }
 };
 
@@ -37,7 +41,8 @@ std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
 bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, const Patch& patch);
 
 /// What lies below the rim of a round vessel and within it belongs to the vessel: cups, bowls,
-/// mugs, pots. So does what they hold, unless it sticks out.
+/// mugs, pots. So does what they hold, unless it sticks out. A wall is a group, or two that touch
+/// and are the inside of one: noise tears wide bowls, which bend little from patch to patch.
 std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups);
 
 /// Whether a place near the table's height is on the bottom of a vessel: whoever sees it looks
