@@ -91,7 +91,7 @@ void LabelBottoms(const PatchScene& scene, const PatchGroups& groups,
         const float w = scene.cells.inverse_depth[i];
         if (w <= 0 || scene.cells.used[i]) continue;
         const Eigen::Vector3f p = scene.grid.Point(static_cast<float>(u), static_cast<float>(v), w);
-        if (IsBottom(vessel, axes(p.cast<double>()))) label_of_cell[i] = label;
+        if (IsBottom(scene, axes, vessel, p.cast<double>())) label_of_cell[i] = label;
       }
     }
   }

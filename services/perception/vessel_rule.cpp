@@ -309,8 +309,12 @@ std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups) {
   return vessels;
 }
 
-bool IsBottom(const Vessel& vessel, const Eigen::Vector2d& place) {
-  return (place - vessel.wall.centre).norm() < vessel.wall.Radius(0) - kTolerance_m;
+bool IsBottom(const PatchScene& scene, const PlaneAxes& axes, const Vessel& vessel,
+              const Eigen::Vector3d& p) {
+  const Wall& wall = vessel.wall;
+  const double from_axis_m = (axes(p) - wall.centre).norm();
+  return from_axis_m < wall.Radius(wall.foot_height_m) - kTolerance_m &&
+         IsSeenThroughRim(scene, axes, wall, p, scene.table_C.Distance(p));
 }
 
 }  // namespace beckon::perception

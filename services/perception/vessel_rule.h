@@ -45,8 +45,8 @@ bool IsWithin(const PatchScene& scene, const PlaneAxes& axes, const Wall& wall, 
 /// and are the inside of one: noise tears wide bowls, which bend little from patch to patch.
 std::vector<Vessel> JoinInsides(const PatchScene& scene, PatchGroups& groups);
 
-/// Whether a place near the table's height is on the bottom of a vessel: whoever sees it looks
-/// through the rim.
-bool IsBottom(const Vessel& vessel, const Eigen::Vector2d& place);
+/// Whether a place near the table's height is on the bottom of a vessel.
+bool IsBottom(const PatchScene& scene, const PlaneAxes& axes, const Vessel& vessel,
+              const Eigen::Vector3d& p);
 
 }  // namespace beckon::perception
