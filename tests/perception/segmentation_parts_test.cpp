@@ -176,6 +176,68 @@ void AddCylinder(PatchesOnly& scene, float x, float radius, std::initializer_lis
   }
 }
 
+/// The far inside of an upright cylinder around (x, 0.9), between two angles from straight away.
+void AddInside(PatchesOnly& scene, float x, float radius, float from, float to,
+               std::initializer_list<float> heights) {
+  for (float h : heights) {
+    for (float angle = from; angle <= to; angle += 0.3f) {
+      scene.Add({x + radius * std::sin(angle), 0.3f - h, 0.9f + radius * std::cos(angle)},
+                {-std::sin(angle), 0, -std::cos(angle)});
+    }
+  }
+}
+
+/// Patches a and b, and all that lie between them in number, touch in a row.
+void TouchInARow(PatchesOnly& scene, int a, int b) {
+  for (int i = a; i < b; ++i) scene.edges.push_back({i, i + 1, 6});
+}
+
+TEST(JoinInsides, JoinsTheTwoHalvesOfATornBowl) {
+  for (const auto& [shift_m, n_groups] : {std::pair(0.0f, 1), std::pair(0.08f, 2)}) {
+    PatchesOnly bowl;
+    AddInside(bowl, 0, 0.07f, -0.95f, -0.05f, {0.03f, 0.05f});
+    const auto n = static_cast<int>(bowl.all.size());
+    AddInside(bowl, shift_m, 0.07f, 0.05f, 0.95f, {0.03f, 0.05f});
+    std::vector<int> group_of_patch(bowl.all.size(), 1);
+    std::fill_n(group_of_patch.begin(), n, 0);
+    TouchInARow(bowl, n - 1, n);
+    PatchGroups groups(group_of_patch);
+    const auto vessels = JoinInsides(bowl.scene, groups);
+    EXPECT_EQ(vessels.size(), n_groups == 1 ? 1u : 0u);
+    EXPECT_EQ(groups.Of(0) == groups.Of(n), n_groups == 1) << "shifted by " << shift_m << " m";
+  }
+}
+
+TEST(JoinInsides, TakesWhatTheRimShowsAndNotWhatTheVesselStandsOn) {
+  PatchesOnly scene;
+  AddCylinder(scene, 0, 0.04f, {0.05f, 0.07f, 0.09f, 0.1f});
+  std::vector<int> group_of_patch(scene.all.size(), 0);
+  AddInside(scene, 0, 0.038f, -0.6f, 0.6f, {0.085f, 0.09f});
+  const int inside = static_cast<int>(group_of_patch.size());
+  group_of_patch.resize(scene.all.size(), 1);
+  const int below = static_cast<int>(group_of_patch.size());
+  for (float x : {-0.02f, 0.0f, 0.02f}) scene.Add({x, 0.29f, 0.87f}, {0, 0, -1});
+  group_of_patch.resize(scene.all.size(), 2);
+  PatchGroups groups(group_of_patch);
+  JoinInsides(scene.scene, groups);
+  EXPECT_EQ(groups.Of(inside), groups.Of(0));
+  EXPECT_NE(groups.Of(below), groups.Of(0));
+}
+
+TEST(IsBottom, IsSeenThroughTheRim) {
+  PatchesOnly scene;
+  const PlaneAxes axes(scene.table_C);
+  Wall wall;
+  wall.centre = axes(Eigen::Vector3d(0, 0.3, 0.4));
+  wall.profile = {0.05, 0, 0};
+  wall.foot_height_m = 0.01;
+  wall.rim_height_m = 0.06;
+  const Vessel vessel{0, wall};
+  EXPECT_TRUE(IsBottom(scene.scene, axes, vessel, {0, 0.3, 0.44}));
+  EXPECT_FALSE(IsBottom(scene.scene, axes, vessel, {0, 0.3, 0.36})) << "hidden by the near wall";
+  EXPECT_FALSE(IsBottom(scene.scene, axes, vessel, {0, 0.3, 0.5})) << "behind the vessel";
+}
+
 TEST(JoinNecks, JoinsWhatIsSlimAndOnTheAxisOnly) {
   for (const auto& [x, n_groups] : {std::pair(0.0f, 1), std::pair(0.015f, 2)}) {
     PatchesOnly bottle;
