@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "services/perception/vessel_rule.h"
+#include "services/perception/revolution_wall.h"
 
 namespace beckon::perception {
 namespace {
