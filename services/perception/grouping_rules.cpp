@@ -14,6 +14,7 @@ constexpr float kSure = 2;                 // standard deviations of the angle b
 constexpr float kRoundest = 28 * kDegree;  // between patches of the inside of something round
 constexpr float kAlike = 0.25f;            // least part of the bend on either side
 constexpr float kSmoothEvidence = 0.5f;
+constexpr float kStepWeight = 0.15f;  // of a cell where one patch hides the other
 
 }  // namespace
 
@@ -80,6 +81,21 @@ bool BendsThroughout(const SurfacePatches& patches, const Neighbours& neighbours
   return bends(behind_a) && bends(behind_b);
 }
 
+namespace {
+
+/// Adds what the cells say where one patch lies before the other: an object's own parts mostly
+/// touch along their border.
+SignedEdge WithSteps(SignedEdge signed_edge, const PatchEdge& edge) {
+  const float steps = kStepWeight * static_cast<float>(edge.n_a_before + edge.n_b_before);
+  if (steps == 0) return signed_edge;
+  const float length = signed_edge.length + steps;
+  signed_edge.evidence = (signed_edge.evidence * signed_edge.length - steps) / length;
+  signed_edge.length = length;
+  return signed_edge;
+}
+
+}  // namespace
+
 SignedEdge LocalEvidence(const SurfacePatches& patches, const Neighbours& neighbours,
                          const PatchEdge& edge) {
   const Patch &a = patches.patches[edge.a], &b = patches.patches[edge.b];
@@ -91,7 +107,7 @@ SignedEdge LocalEvidence(const SurfacePatches& patches, const Neighbours& neighb
   } else {
     result.evidence = ConvexityEvidence(a, b);
   }
-  return result;
+  return WithSteps(result, edge);
 }
 
 }  // namespace beckon::perception

@@ -11,6 +11,9 @@ namespace {
 // Evidence that a border must show for each cell of the smaller group's width: faces of one object
 // meet along an edge as long as they are wide, objects that happen to touch often do not.
 constexpr float kShortBorder = 0.08f;
+// Cells of border without evidence that are added to each: of two means alike the one of the longer
+// border comes first, and a single cell does not bridge two objects before they have grown.
+constexpr float kDoubt = 2;
 
 class Agglomeration {
  public:
@@ -79,7 +82,7 @@ class Agglomeration {
   float Mean(const SignedEdge& edge) const {
     if (edge.length <= 0) return 0;
     const float width = std::sqrt(std::min(size_[edge.a], size_[edge.b]));
-    return (edge.evidence - kShortBorder * width) / edge.length;
+    return (edge.evidence - kShortBorder * width) / (edge.length + kDoubt);
   }
 
   /// Joins the ends of an edge; the one with fewer edges is taken into the other.
