@@ -96,6 +96,18 @@ TEST(ClusterSignedGraph, AWrongEdgeIsOutvotedByTheRestOfTheBorder) {
   EXPECT_THAT(ClusterSignedGraph(sizes, edges), ElementsAre(0, 0, 0, 0, 0, 0, 0, 0));
 }
 
+TEST(ClusterSignedGraph, ASingleCellDoesNotBridgeTwoObjectsBeforeTheyHaveGrown) {
+  // Patch 4 is of the second object, whose noise speaks little for it; one cell of the first
+  // touches it, too.
+  std::vector<SignedEdge> edges;
+  for (int i : {0, 1, 2}) edges.push_back({i, i + 1, 1, 6});
+  for (int i : {5, 6, 7}) edges.push_back({i, i + 1, 1, 6});
+  edges.push_back({3, 4, 1, 1});
+  for (int i : {5, 6, 7}) edges.push_back({4, i, 0.45f, 6});
+  const std::vector<float> sizes(9, 64);
+  EXPECT_THAT(ClusterSignedGraph(sizes, edges), ElementsAre(0, 0, 0, 0, 1, 1, 1, 1, 1));
+}
+
 TEST(ClusterSignedGraph, OfNothingIsNothing) {
   EXPECT_TRUE(ClusterSignedGraph({}, {}).empty());
   const std::vector<float> sizes(2, 36);
@@ -119,6 +131,24 @@ TEST(CreaseAngle, IsPositiveWhereConvexAndNegativeWhereConcave) {
   EXPECT_NEAR(CreaseAngle(inner_left, inner_right), -1.5708, 1e-3);
   EXPECT_EQ(ConvexityEvidence(left, right), 1);
   EXPECT_EQ(ConvexityEvidence(inner_left, inner_right), -1);
+}
+
+TEST(LocalEvidence, StepsAlongABorderSpeakAgainstIt) {
+  SurfacePatches patches;
+  patches.patches = {PatchAt({-0.01f, 0, 1}, {0, 0, -1}), PatchAt({0.01f, 0, 1}, {0, 0, -1})};
+  PatchEdge edge{0, 1, 6};
+  const Neighbours neighbours = FindNeighbours(patches, {edge});
+  const SignedEdge touching = LocalEvidence(patches, neighbours, edge);
+  EXPECT_EQ(touching.evidence, 1);
+  EXPECT_EQ(touching.length, 6);
+  edge.n_a_before = 3;
+  edge.n_b_before = 1;
+  const SignedEdge stepped = LocalEvidence(patches, neighbours, edge);
+  EXPECT_LT(stepped.evidence, 1);
+  EXPECT_GT(stepped.evidence, 0);
+  EXPECT_GT(stepped.length, 6);
+  edge.n_touching = 0;
+  EXPECT_EQ(LocalEvidence(patches, neighbours, edge).evidence, -1);
 }
 
 /// A scene of patches alone: seen from the side, the table below.
