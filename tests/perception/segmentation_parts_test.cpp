@@ -103,7 +103,7 @@ TEST(ClusterSignedGraph, ASingleCellDoesNotBridgeTwoObjectsBeforeTheyHaveGrown) 
   for (int i : {0, 1, 2}) edges.push_back({i, i + 1, 1, 6});
   for (int i : {5, 6, 7}) edges.push_back({i, i + 1, 1, 6});
   edges.push_back({3, 4, 1, 1});
-  for (int i : {5, 6, 7}) edges.push_back({4, i, 0.45f, 6});
+  for (int i : {5, 6, 7}) edges.push_back({4, i, 0.3f, 6});
   const std::vector<float> sizes(9, 64);
   EXPECT_THAT(ClusterSignedGraph(sizes, edges), ElementsAre(0, 0, 0, 0, 1, 1, 1, 1, 1));
 }
