@@ -12,11 +12,12 @@
 namespace beckon::perception {
 namespace {
 
-constexpr int kWidth = 320;
 constexpr int kReferenceWidth = 112;  // the reference is slow
 
-std::string Fuzz(SegmentationMethod method, int width, std::span<const uint8_t> bytes) {
-  Draws draws(bytes);
+/// Mostly small images, for more of them.
+int AnyWidth(Draws& draws) { return draws.OneIn(4) ? 320 : 160; }
+
+std::string Fuzz(SegmentationMethod method, Draws draws, int width) {
   SegmentationConfig config = AnyConfig(draws);
   config.method = method;
   const RgbdImage image = HostileImage(draws, width);
@@ -46,11 +47,13 @@ std::string UnsoundObjects(const Perception& perception) {
 }  // namespace
 
 std::string FuzzFast(std::span<const uint8_t> bytes) {
-  return Fuzz(SegmentationMethod::kFast, kWidth, bytes);
+  Draws draws(bytes);
+  const int width = AnyWidth(draws);
+  return Fuzz(SegmentationMethod::kFast, draws, width);
 }
 
 std::string FuzzReference(std::span<const uint8_t> bytes) {
-  return Fuzz(SegmentationMethod::kReference, kReferenceWidth, bytes);
+  return Fuzz(SegmentationMethod::kReference, Draws(bytes), kReferenceWidth);
 }
 
 std::string FuzzPerceiver(std::span<const uint8_t> bytes) {
@@ -61,7 +64,9 @@ std::string FuzzPerceiver(std::span<const uint8_t> bytes) {
   Perceiver perceiver(config, nullptr);
   RgbdImage image;
   for (int frame = draws.Between(1, 5); frame > 0; --frame) {
-    if (image.depth_m.empty() || !draws.OneIn(3)) image = AsReceived(HostileImage(draws, kWidth));
+    if (image.depth_m.empty() || !draws.OneIn(3)) {
+      image = AsReceived(HostileImage(draws, AnyWidth(draws)));
+    }
     const Perception perception = perceiver.Perceive(image);
     if (std::string wrong = UnsoundObjects(perception); !wrong.empty()) return wrong;
     msg::Scene scene = MakeScene(image, perception);
