@@ -117,6 +117,17 @@ TEST(SegmentFast, FramesMayChangeTheirSize) {
   }
 }
 
+TEST(SegmentFast, AnImageNarrowerThanACellHasNoTable) {
+  for (const auto& [width, height] : {std::pair(1, 480), std::pair(640, 1), std::pair(1, 1)}) {
+    RgbdImage image{width, height, {}, {}, {}};  // a cell is two pixels wide
+    image.depth_m.assign(static_cast<size_t>(width) * height, 1);
+    const Segmentation result = SegmentFast(image, {});
+    EXPECT_FALSE(result.table_C);
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_EQ(result.labels, std::vector<uint16_t>(image.depth_m.size(), 0));
+  }
+}
+
 /// Corrupt depth: blocks and pixels of holes, NaN, infinities, negative and huge values, noise.
 RgbdImage Corrupted(const RgbdImage& image, unsigned seed) {
   RgbdImage bad = image;
