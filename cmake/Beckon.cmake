@@ -43,13 +43,13 @@ function(beckon_test name)
     PROPERTIES ENVIRONMENT BECKON_SHARE=${PROJECT_BINARY_DIR}/share/beckon LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
 endfunction()
 
-# beckon_fuzzer(NAME FUNCTION SOURCES... LINK LIBRARIES...): a libFuzzer program that feeds FUNCTION; part of the
-# target fuzzers
-function(beckon_fuzzer name function)
+# beckon_fuzzer(NAME FUNCTION HEADER SOURCES... LINK LIBRARIES...): a libFuzzer program that feeds FUNCTION, which
+# HEADER declares; part of the target fuzzers
+function(beckon_fuzzer name function header)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
-  add_executable(${name} EXCLUDE_FROM_ALL ${ARG_UNPARSED_ARGUMENTS})
+  add_executable(${name} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/tests/fuzzer.cpp ${ARG_UNPARSED_ARGUMENTS})
   beckon_compile_options(${name})
-  target_compile_definitions(${name} PRIVATE BECKON_HARNESS=${function})
+  target_compile_definitions(${name} PRIVATE BECKON_HARNESS=${function} BECKON_HARNESS_HEADER="${header}")
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   target_link_options(${name} PRIVATE -fsanitize=fuzzer)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)

@@ -1,7 +1,9 @@
 // Compression and decompression of a frame's images.
 #include "lcmtypes/frame_image.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -25,41 +27,70 @@ int BigEndian16(const std::vector<uint8_t>& bytes, size_t at) {
   return bytes[at] << 8 | bytes[at + 1];
 }
 
-/// The size a PNG (its IHDR chunk) or a JPEG (its start-of-frame segment) claims; 0 x 0 for
-/// anything else. Known before decoding, so that a small file cannot claim gigabytes.
-ImageSize ClaimedSize(const std::vector<uint8_t>& bytes) {
-  constexpr size_t kPngHeader = 24;
-  if (bytes.size() >= kPngHeader && bytes[0] == 0x89 && bytes[1] == 'P') {
-    if (BigEndian16(bytes, 16) != 0 || BigEndian16(bytes, 20) != 0) return {};
-    return {BigEndian16(bytes, 18), BigEndian16(bytes, 22)};
+/// The size in a PNG's first chunk, which must be its IHDR: libpng passes over others before it.
+ImageSize PngSize(const std::vector<uint8_t>& bytes) {
+  constexpr size_t kHeader = 24;
+  constexpr uint8_t kIhdr[] = {'I', 'H', 'D', 'R'};
+  if (bytes.size() < kHeader || !std::equal(std::begin(kIhdr), std::end(kIhdr), &bytes[12]) ||
+      BigEndian16(bytes, 16) != 0 || BigEndian16(bytes, 20) != 0) {
+    return {};
   }
-  if (bytes.size() < 2 || BigEndian16(bytes, 0) != 0xffd8) return {};
+  return {BigEndian16(bytes, 18), BigEndian16(bytes, 22)};
+}
+
+/// The size in a JPEG's start-of-frame segment. Before it there may be segments only, each right
+/// behind the other: markers without a length and bytes that fill up are legal there, but they
+/// would let a file show this reader another start of frame than the decoder.
+ImageSize JpegSize(const std::vector<uint8_t>& bytes) {
   for (size_t at = 2; at + 9 <= bytes.size() && bytes[at] == 0xff;) {
-    const int marker = bytes[at + 1];
-    const bool is_frame_start =
-        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame_start) return {BigEndian16(bytes, at + 7), BigEndian16(bytes, at + 5)};
-    at += 2 + static_cast<size_t>(BigEndian16(bytes, at + 2));
+    const int marker = bytes[at + 1], length = BigEndian16(bytes, at + 2);
+    const bool is_table = marker == 0xc4 || marker == 0xcc;
+    if (marker >= 0xc0 && marker <= 0xcf && !is_table) {
+      return {BigEndian16(bytes, at + 7), BigEndian16(bytes, at + 5)};
+    }
+    const bool is_segment = is_table || (marker >= 0xdb && marker <= 0xfe);
+    if (!is_segment || length < 2) return {};
+    at += 2 + static_cast<size_t>(length);
   }
   return {};
 }
 
+/// The size a PNG or a JPEG claims; 0 x 0 for anything else. Known before decoding, so that a small
+/// file cannot claim gigabytes.
+ImageSize ClaimedSize(const std::vector<uint8_t>& bytes) {
+  if (bytes.size() >= 2 && bytes[0] == 0x89 && bytes[1] == 'P') return PngSize(bytes);
+  if (bytes.size() >= 2 && BigEndian16(bytes, 0) == 0xffd8) return JpegSize(bytes);
+  return {};
+}
+
+/// Whether a JPEG has more scans than any encoder writes (about ten): each costs a pass over the
+/// whole image, however few bytes it has. Compressed data cannot hold the marker.
+bool HasTooManyScans(const std::vector<uint8_t>& bytes) {
+  constexpr int kMostScans = 100;
+  if (bytes.size() < 2 || BigEndian16(bytes, 0) != 0xffd8) return false;
+  int n = 0;
+  for (size_t i = 0; i + 1 < bytes.size(); ++i) n += BigEndian16(bytes, i) == 0xffda;
+  return n > kMostScans;
+}
+
 Result<cv::Mat> Decompress(const std::vector<uint8_t>& bytes, int type, const msg::Frame& frame,
                            const char* name) {
+  const std::string image_name = std::string("frame: ") + name + " image";
   const ImageSize claimed = ClaimedSize(bytes);
   if (claimed.width != frame.width || claimed.height != frame.height) {
-    return Error{std::string("frame: ") + name + " image is " + std::to_string(claimed.width) +
-                 "x" + std::to_string(claimed.height) + ", the frame says " +
+    return Error{image_name + " is " + std::to_string(claimed.width) + "x" +
+                 std::to_string(claimed.height) + ", the frame says " +
                  std::to_string(frame.width) + "x" + std::to_string(frame.height)};
   }
+  if (HasTooManyScans(bytes)) return Error{image_name + " is a JPEG of more than 100 scans"};
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
-    return Error{std::string("frame: ") + name + " image does not decode: " + e.err};
+    return Error{image_name + " does not decode: " + e.err};
   }
   if (image.type() != type || image.cols != frame.width || image.rows != frame.height) {
-    return Error{std::string("frame: ") + name + " image does not decode to what the frame says"};
+    return Error{image_name + " does not decode to what the frame says"};
   }
   return image;
 }

@@ -61,7 +61,7 @@ DepthGrid MakeDepthGrid(const RgbdImage& image, double min_range_m, double max_r
   DepthGrid grid;
   const int p = grid.pixels = PixelsPerCell(image.intrinsics);
   grid.width = image.width / p;
-  grid.height = image.height / p;
+  grid.height = grid.width > 0 ? image.height / p : 0;  // narrower than a cell: no cells at all
   const double centre = (p - 1) / 2.0;
   grid.fx = static_cast<float>(image.intrinsics.fx / p);
   grid.fy = static_cast<float>(image.intrinsics.fy / p);

@@ -15,14 +15,14 @@ void ReadSegmentation(ConfigTable table, SegmentationConfig& config) {
   } else {
     table.Fail("method", parsed.error().message);
   }
-  table.Get("min_range_m", config.min_range_m, 0, 100);
+  table.Get("min_range_m", config.min_range_m, 0.01, 100);
   table.Get("max_range_m", config.max_range_m, 0, 100);
   if (config.min_range_m >= config.max_range_m) {
     table.Fail("max_range_m", "must be greater than min_range_m");
   }
-  table.Get("fast_min_range_m", config.fast_min_range_m, 0.01, 100);
-  if (config.fast_min_range_m >= config.max_range_m) {
-    table.Fail("max_range_m", "must be greater than fast_min_range_m");
+  table.Get("reference_min_range_m", config.reference_min_range_m, 0, 100);
+  if (config.reference_min_range_m >= config.max_range_m) {
+    table.Fail("max_range_m", "must be greater than reference_min_range_m");
   }
   table.Get("noise_floor_m", config.sensor.floor_m, 0.00001, 0.1);
   table.Get("noise_growth_per_m", config.sensor.growth_per_m, 0, 0.1);

@@ -81,6 +81,19 @@ void FillPoints(const RgbdImage& image, const Perception& perception, size_t sha
   }
 }
 
+/// Whether a SCENE can say where the object is. What spans more than 3 m, or is a kilometre away,
+/// is nothing to take; left in, it would cost the other objects of the frame their scene.
+bool CanBeTold(const msg::SceneObject& object) {
+  constexpr double kFarthest_m = 1000;
+  constexpr float kMostReach_m = 3;
+  if (!(object.centroid_W.norm() < kFarthest_m)) return false;
+  std::vector<Eigen::Vector3f> points = object.points_C;
+  for (const RimPoint& rim : object.rim_C) points.push_back(rim.point);
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3f& p) {
+    return (p - points.front()).cwiseAbs().maxCoeff() <= kMostReach_m;
+  });
+}
+
 }  // namespace
 
 msg::Scene MakeScene(const RgbdImage& image, const Perception& perception) {
@@ -104,6 +117,7 @@ msg::Scene MakeScene(const RgbdImage& image, const Perception& perception) {
   }
   const size_t room = msg::kMaxDatagram > bytes ? msg::kMaxDatagram - bytes : 0;
   FillPoints(image, perception, n_objects == 0 ? 0 : room / n_objects, scene);
+  std::erase_if(scene.objects, [](const msg::SceneObject& object) { return !CanBeTold(object); });
   return scene;
 }
 

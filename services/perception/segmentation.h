@@ -27,17 +27,17 @@ Result<SegmentationMethod> ParseSegmentationMethod(const std::string& name);
 struct SegmentationConfig {
   SegmentationMethod method = SegmentationMethod::kFast;
   SensorNoise sensor;             // fast only: its thresholds follow from this
-  double fast_min_range_m = 0.3;  // fast instead of min_range_m: objects come nearer than tables
   double min_object_m2 = 0.0003;  // fast only: across the line of sight, less is no object
-  double min_range_m = 0.5;       // depth that is used, along the optical axis
+  double min_range_m = 0.3;       // depth that is used, along the optical axis
   double max_range_m = 3.0;
-  double voxel_m = 0.002;          // edge length of the voxels
-  bool use_normals = false;        // a plane by points and normals: slower by a factor of 50
-  int normal_neighbours = 30;      // points a normal is estimated from
-  double normal_weight = 0.1;      // 0..1, of angles against distances, where normals are used
-  double plane_distance_m = 0.01;  // points this close to a plane lie on it
-  int plane_iterations = 1000;     // most hypotheses of RANSAC
-  int plane_min_points = 2000;     // voxels (fast: pixels), fewer are no table
+  double reference_min_range_m = 0.5;  // reference only, for min_range_m: the dissertation's
+  double voxel_m = 0.002;              // edge length of the voxels
+  bool use_normals = false;            // a plane by points and normals: slower by a factor of 50
+  int normal_neighbours = 30;          // points a normal is estimated from
+  double normal_weight = 0.1;          // 0..1, of angles against distances, where normals are used
+  double plane_distance_m = 0.01;      // points this close to a plane lie on it
+  int plane_iterations = 1000;         // most hypotheses of RANSAC
+  int plane_min_points = 2000;         // voxels (fast: pixels), fewer are no table
   double table_max_tilt_deg = 80;  // between the table's normal and up in the image; more is a wall
   double table_gap_m = 0.10;       // pieces of a table that are this close belong together
   double min_height_m = 0.01;      // above the table, of what is an object

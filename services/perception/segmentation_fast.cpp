@@ -18,8 +18,8 @@ namespace {
 
 std::string TooFewPoints(const DepthGrid& grid, const SegmentationConfig& config) {
   std::ostringstream text;
-  text << "only " << grid.n_pixels << " pixels have depth between " << config.fast_min_range_m
-       << " and " << config.max_range_m << " m, too few for a table";
+  text << "only " << grid.n_pixels << " pixels have depth between " << config.min_range_m << " and "
+       << config.max_range_m << " m, too few for a table";
   return text.str();
 }
 
@@ -125,7 +125,7 @@ Segmentation SegmentFast(const RgbdImage& image, const SegmentationConfig& confi
   Segmentation result;
   result.labels.assign(image.depth_m.size(), 0);
   const DepthGrid grid =
-      MakeDepthGrid(image, config.fast_min_range_m, config.max_range_m, config.sensor);
+      MakeDepthGrid(image, config.min_range_m, config.max_range_m, config.sensor);
   result.n_points = grid.n_pixels;
   cell_px = grid.pixels;
   finished("grid", [&] { return OfCells(grid, [&](size_t i) { return DepthBand(grid, i); }); });

@@ -138,8 +138,9 @@ std::vector<uint32_t> Within(const VoxelGrid& grid, const TableSearch& table,
 
 std::string TooFewPoints(const Segmentation& result, const SegmentationConfig& config) {
   std::ostringstream text;
-  text << "only " << result.n_points << " pixels have depth between " << config.min_range_m
-       << " and " << config.max_range_m << " m, too few for a table";
+  text << "only " << result.n_points << " pixels have depth between "
+       << config.reference_min_range_m << " and " << config.max_range_m
+       << " m, too few for a table";
   return text.str();
 }
 
@@ -154,7 +155,7 @@ Segmentation SegmentReference(const RgbdImage& image, const SegmentationConfig& 
   result.labels.assign(image.depth_m.size(), 0);
 
   const VoxelGrid grid =
-      MakeVoxelGrid(image, config.voxel_m, config.min_range_m, config.max_range_m);
+      MakeVoxelGrid(image, config.voxel_m, config.reference_min_range_m, config.max_range_m);
   result.n_points = grid.n_pixels;
   result.n_voxels = static_cast<int>(grid.points_C.size());
   finished("range_voxels", [&] {

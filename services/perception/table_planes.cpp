@@ -19,6 +19,8 @@ constexpr size_t kCounted = 400;    // about so many blocks judge a hypothesis
 constexpr float kParallel = 0.96f;  // cosine between normals on one plane (16 degrees)
 constexpr int kMostSteps = 20;      // between neighbouring blocks
 constexpr double kHigherShare = 0.05;
+constexpr double kUpsideDownDeg = 135;            // a table tilted more is seen upside down
+constexpr float kUpsideDownCosine = 0.70710678f;  // of 180 degrees less these
 
 /// A plane as n·p + d = 0 with the normal towards the camera, d > 0.
 struct Hypothesis {
@@ -134,6 +136,22 @@ std::optional<Hypothesis> FindHigher(const PlaneSearch& search, const Hypothesis
   return n >= kHigherShare * static_cast<double>(blocks.size()) ? plane : std::nullopt;
 }
 
+/// How many blocks lie on `plane`.
+int CountOn(const PlaneSearch& search, const Hypothesis& plane, const std::vector<Block>& blocks) {
+  return static_cast<int>(std::count_if(blocks.begin(), blocks.end(),
+                                        [&](const Block& b) { return search.On(plane, b); }));
+}
+
+/// Whether something is seen from below, and far larger than the table: a camera that is upside
+/// down takes the side of a box for a table, and sees the table so.
+bool IsUpsideDown(const PlaneSearch& search, const std::vector<int>& all,
+                  const std::vector<Block>& blocks, const Hypothesis& table) {
+  constexpr int kFarLarger = 4;
+  const auto from_below = search.Find(all, {{0, 1, 0}, kUpsideDownCosine});
+  return from_below &&
+         CountOn(search, *from_below, blocks) > kFarLarger * CountOn(search, table, blocks);
+}
+
 /// Adds points between a and b where these are further apart than `step`. `b` may be of `points`.
 void AddBetween(const Eigen::Vector2d& a, Eigen::Vector2d b, double step,
                 std::vector<Eigen::Vector2d>& points) {
@@ -177,20 +195,29 @@ double TiltDeg(const Eigen::Vector3f& normal) {
   return std::acos(std::clamp(-normal.y(), -1.0f, 1.0f)) * 180 / std::numbers::pi;
 }
 
+constexpr double kStraightDownDeg = 90, kOffDeg = 5;
+
+/// What a camera may be doing that sees a plane so, and what to set then.
+std::string Advice(double tilt_deg) {
+  if (tilt_deg > kUpsideDownDeg) return "; the camera may be upside down";
+  if (std::abs(tilt_deg - kStraightDownDeg) > 2 * kOffDeg) return "";
+  std::ostringstream text;
+  text << "; if this is no wall but the camera looks straight down on the table, set "
+       << "table_max_tilt_deg = " << kStraightDownDeg + kOffDeg;
+  return text.str();
+}
+
 std::string WhyNone(const PlaneSearch& search, const std::vector<Block>& blocks,
                     const std::vector<int>& all, const SegmentationConfig& config, int least) {
   std::ostringstream text;
   const auto any = search.Find(all, {});
-  int n = 0;
-  if (any) {
-    for (int i : all) n += search.On(*any, blocks[i]);
-  }
-  if (n < least) {
+  if (!any || CountOn(search, *any, blocks) < least) {
     text << "no plane with at least " << config.plane_min_points << " pixels";
   } else {
-    text << "the largest plane can be no table: it is tilted " << std::lround(TiltDeg(any->normal))
-         << " degrees from up in the image, at most " << config.table_max_tilt_deg
-         << " are allowed";
+    const double tilt_deg = TiltDeg(any->normal);
+    text << "the largest plane can be no table: it is tilted " << std::lround(tilt_deg)
+         << " degrees from up in the image, at most " << config.table_max_tilt_deg << " are allowed"
+         << Advice(tilt_deg);
   }
   return text.str();
 }
@@ -208,6 +235,10 @@ TablePlane FindTablePlane(const DepthGrid& grid, const SegmentationConfig& confi
 
   const double tilt = config.table_max_tilt_deg * std::numbers::pi / 180;
   auto table = search.Find(all, {{0, -1, 0}, static_cast<float>(std::cos(tilt))});
+  if (table && config.table_max_tilt_deg < kUpsideDownDeg &&
+      IsUpsideDown(search, all, blocks, *table)) {
+    table.reset();
+  }
   if (table) {
     if (auto higher = FindHigher(search, *table, blocks, config)) table = higher;
     const Plane table_C{table->normal.cast<double>().normalized(), table->offset_m};

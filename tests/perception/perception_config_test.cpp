@@ -24,7 +24,7 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   EXPECT_EQ(a.sensor.floor_m, b.sensor.floor_m);
   EXPECT_EQ(a.sensor.growth_per_m, b.sensor.growth_per_m);
   EXPECT_EQ(a.sensor.from_m, b.sensor.from_m);
-  EXPECT_EQ(a.fast_min_range_m, b.fast_min_range_m);
+  EXPECT_EQ(a.reference_min_range_m, b.reference_min_range_m);
   EXPECT_EQ(a.min_object_m2, b.min_object_m2);
   EXPECT_EQ(a.min_range_m, b.min_range_m);
   EXPECT_EQ(a.max_range_m, b.max_range_m);
@@ -66,7 +66,7 @@ TEST(PerceptionConfig, RefusesWhatIsWrong) {
         "[segmentation]\nmethod = \"magic\"", "threads = 0",
         "[segmentation]\nmin_range_m = 2.0\nmax_range_m = 1.0",
         "[segmentation]\nmin_height_m = 0.6", "[segmentation]\nnoise_floor_m = 0",
-        "[segmentation]\nfast_min_range_m = 3.5", "[tracker]\nmin_overlap = \"a\""}) {
+        "[segmentation]\nreference_min_range_m = 3.5", "[tracker]\nmin_overlap = \"a\""}) {
     const auto read = Read(text);
     ASSERT_FALSE(read) << text;
     EXPECT_THAT(read.error().message, testing::HasSubstr("test.toml")) << text;

@@ -64,6 +64,22 @@ TEST(SceneMessage, TellsWhereObjectsAre) {
   EXPECT_LT(area, 1.3);
 }
 
+// One object that the message cannot hold must not cost the others their scene.
+TEST(SceneMessage, LeavesOutWhatSpansMoreThanTheMessageCanSay) {
+  RgbdImage image = ThreeBoxes().Render();
+  Perceiver perceiver({}, nullptr);
+  const Perception perception = perceiver.Perceive(image);
+  ASSERT_EQ(perception.objects.size(), 3u);
+  const auto& pixels = perception.objects[1].shape.pixels;
+  for (size_t i = 0; i < pixels.size() / 2; ++i) image.depth_m[pixels[i]] += 4;
+  msg::Scene scene = MakeScene(image, perception);
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[0].id, perception.objects[0].id);
+  EXPECT_EQ(scene.objects[1].id, perception.objects[2].id);
+  scene.utime = 1, scene.seq = 1, scene.frame_seq = 1, scene.source = "test";
+  EXPECT_TRUE(Codec<msg::Scene>::Encode(scene));
+}
+
 TEST(SceneMessage, WithoutATableIsValidToo) {
   RgbdImage image = ThreeBoxes().Render();
   image.depth_m.assign(image.depth_m.size(), 0);

@@ -2,7 +2,6 @@
 #include "tests/pose/hostile_clouds.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -30,34 +29,6 @@ bool IsSound(const GraspCandidate& grasp) {
 }
 
 }  // namespace
-
-uint32_t Draws::operator()() {
-  if (bytes_.empty()) return static_cast<uint32_t>(engine_());
-  uint32_t value = 0;
-  for (int i = 0; i < 4 && !bytes_.empty(); ++i) {
-    value = value << 8 | bytes_.front();
-    bytes_ = bytes_.subspan(1);
-  }
-  return value;
-}
-
-float Draws::Uniform(float lo, float hi) {
-  return std::uniform_real_distribution<float>(lo, hi)(*this);
-}
-
-size_t Draws::Index(size_t count) { return (*this)() % count; }
-
-Vector3f Draws::Cube() { return {Uniform(-1, 1), Uniform(-1, 1), Uniform(-1, 1)}; }
-
-Vector3f Draws::Odd() {
-  const float odd[] = {kNan, kInf, -kInf, 1e30f, -1e30f, 1e-42f, 0, -0.0f, 3e38f};
-  return {odd[Index(9)], odd[Index(9)], odd[Index(9)]};
-}
-
-Vector3f Draws::AnyBits() {
-  const auto any = [this] { return std::bit_cast<float>((*this)()); };
-  return {any(), any(), any()};
-}
 
 HostileCloud SoundCloud(Draws& draws) {
   static const TableView views[] = {

@@ -3,13 +3,12 @@
 
 #include <functional>
 #include <optional>
-#include <random>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/pose/estimate.h"
+#include "tests/draws.h"
 
 namespace beckon::pose {
 
@@ -21,28 +20,6 @@ struct HostileCloud {
   bool hopeless = false;  // must not converge
 
   FitInput input() const { return {points, table, viewpoint, rim}; }
-};
-
-/// Choices, drawn from a seed, or from bytes while there are any and from a seed afterwards.
-class Draws {
- public:
-  explicit Draws(unsigned seed) : engine_(seed) {}
-  explicit Draws(std::span<const uint8_t> bytes) : bytes_(bytes), engine_(1) {}
-
-  using result_type = uint32_t;
-  static constexpr uint32_t min() { return 0; }
-  static constexpr uint32_t max() { return UINT32_MAX; }
-  uint32_t operator()();
-
-  float Uniform(float lo, float hi);
-  size_t Index(size_t count);
-  Eigen::Vector3f Cube();     // -1 .. 1
-  Eigen::Vector3f Odd();      // NaN, infinite, huge, tiny, zero
-  Eigen::Vector3f AnyBits();  // any floats there are
-
- private:
-  std::span<const uint8_t> bytes_;
-  std::mt19937 engine_;
 };
 
 /// A view of a box or a can on a table, some hundred points, and its rim.
