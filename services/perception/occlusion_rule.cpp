@@ -227,7 +227,8 @@ void JoinAcrossOccluders(const PatchScene& scene, PatchGroups& groups) {
   // The groups as they were: joining must not make new hypotheses on the way.
   std::vector<std::vector<int>> members;
   for (int g = 0; g < groups.Count(); ++g) members.push_back(groups.Members(g));
-  for (const auto& [a, b] : PairsBehindOneOccluder(scene, groups)) {
+  for (const auto& pair : PairsBehindOneOccluder(scene, groups)) {
+    const int a = pair.first, b = pair.second;
     const int now_a = groups.Of(members[a].front()), now_b = groups.Of(members[b].front());
     if (now_a == now_b) continue;
     bool one = std::any_of(faces[a].begin(), faces[a].end(), [&](const Face& f) {
