@@ -10,6 +10,7 @@ namespace {
 constexpr float kSigmas = 4;       // depths that differ by less show the same surface
 constexpr uint8_t kUndone = 2;     // frames against a slot that one for it makes up for
 constexpr float kMost_m = 100;     // infinity is no depth
+constexpr size_t kTogether = 4;    // changed blocks that touch: fewer are an outline that strays
 constexpr float kFollow = 0.125f;  // of the difference, by which depth is averaged
 
 }  // namespace
@@ -139,10 +140,33 @@ SceneEvidence SceneLayers::Compare(const RgbdImage& image, std::span<const uint1
       CompareBlock(image, labels, u, v, evidence);
     }
   }
+  DropLoneChanges();
   for (const auto& of_label : evidence.same) {
     for (int slot = 1; slot < kSlots; ++slot) evidence.visible[slot] += of_label[slot];
   }
   return evidence;
+}
+
+/// Forgets changes of few blocks: outlines stray that far, things that move change more.
+void SceneLayers::DropLoneChanges() {
+  constexpr uint8_t kChanged = 1, kReached = 2;
+  const auto row = static_cast<ptrdiff_t>(width_) / kBlock + 3;
+  for (size_t start = 0; start < block_changed_.size(); ++start) {
+    if (block_changed_[start] != kChanged) continue;
+    together_.assign(1, start);
+    block_changed_[start] = kReached;
+    for (size_t next = 0; next < together_.size(); ++next) {
+      for (const ptrdiff_t step :
+           {-row - 1, -row, -row + 1, ptrdiff_t{-1}, ptrdiff_t{1}, row - 1, row, row + 1}) {
+        const size_t beside = together_[next] + step;
+        if (block_changed_[beside] != kChanged) continue;
+        block_changed_[beside] = kReached;
+        together_.push_back(beside);
+      }
+    }
+    if (together_.size() >= kTogether) continue;
+    for (size_t block : together_) block_changed_[block] = 0;
+  }
 }
 
 /// Whether the pixel's block or one beside it changed: what moves leaves slivers beside whole

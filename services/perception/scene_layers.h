@@ -36,10 +36,10 @@ struct SlotTraits {
 /// Two layers of depth and slots per pixel. Where depth stays, a pixel changes hands only after
 /// `settle_after_frames` that speak for it, less two for each that speaks against it: what
 /// segmentation gets wrong now and then never shows. Where the depth of most of a block of 4 x 4
-/// pixels changes by more than the noise, the new frame is believed at once; a change of fewer
-/// pixels is how ragged outlines are in depth images, and believed like the rest. When an object
-/// comes before another, the pixels of the latter are kept behind, and are its own again once their
-/// depth comes back; seeing farther empties the place.
+/// pixels changes by more than the noise, and that of several blocks that touch, the new frame is
+/// believed at once; a change of fewer is how ragged outlines are in depth images, and believed
+/// like the rest. When an object comes before another, the pixels of the latter are kept behind,
+/// and are its own again once their depth comes back; seeing farther empties the place.
 class SceneLayers {
  public:
   /// 0 frames: every frame is believed at once.
@@ -81,6 +81,7 @@ class SceneLayers {
              SceneEvidence& evidence) const;
   void CompareBlock(const RgbdImage& image, std::span<const uint16_t> labels, int bu, int bv,
                     SceneEvidence& evidence);
+  void DropLoneChanges();
   bool ChangedAround(int u, int v) const;
   void TakePixel(size_t pixel, float depth_m, Slot slot, bool changed, const SlotTraits& traits);
   void Replace(size_t pixel, float depth_m, Slot slot, const SlotTraits& traits);
@@ -94,6 +95,7 @@ class SceneLayers {
   std::vector<uint8_t> doubt_;                         // frames against the front's slot
   std::vector<Relation> relation_;                     // of the frame compared last
   std::vector<uint8_t> block_changed_;                 // with a border of one block
+  std::vector<size_t> together_;                       // changed blocks that touch
   PerSlot<int> n_seen_{};
   Rectangle region_;  // the same
 };
