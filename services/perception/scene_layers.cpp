@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace beckon::perception {
 namespace {
@@ -35,19 +36,27 @@ void SceneLayers::Fit(const RgbdImage& image) {
   region_ = {};
 }
 
-/// Whole blocks around all that is or was an object.
+/// Whole blocks around all that is or was an object. Most of an image is none: in each row, only
+/// what may widen the rectangle is looked through, and most of that at once.
 SceneLayers::Rectangle SceneLayers::Region(std::span<const uint16_t> labels) const {
+  const std::vector<uint16_t> none(width_, 0);
+  const auto any = [&](std::span<const uint16_t> part) {
+    return !part.empty() && std::memcmp(part.data(), none.data(), part.size_bytes()) != 0;
+  };
   Rectangle r{width_, height_, 0, 0};
   for (int v = 0; v < height_; ++v) {
-    const auto row = labels.begin() + static_cast<ptrdiff_t>(v) * width_, end = row + width_;
-    const auto first = std::find_if(row, end, [](uint16_t label) { return label != 0; });
-    if (first == end) continue;
-    auto last = end;
-    while (*(last - 1) == 0) --last;
-    r.left = std::min(r.left, static_cast<int>(first - row));
-    r.right = std::max(r.right, static_cast<int>(last - row));
+    const auto row = labels.subspan(static_cast<size_t>(v) * width_, width_);
+    if (!any(row)) continue;
     r.top = std::min(r.top, v);
     r.bottom = v + 1;
+    if (any(row.first(r.left))) {
+      r.left = 0;
+      while (row[r.left] == 0) ++r.left;
+    }
+    if (any(row.subspan(r.right))) {
+      r.right = width_;
+      while (row[r.right - 1] == 0) --r.right;
+    }
   }
   if (region_.right > region_.left) {
     r = {std::min(r.left, region_.left), std::min(r.top, region_.top),

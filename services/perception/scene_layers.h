@@ -42,6 +42,11 @@ struct SlotTraits {
 /// and are its own again once their depth comes back; seeing farther empties the place.
 class SceneLayers {
  public:
+  /// Pixels left .. right - 1, top .. bottom - 1.
+  struct Rectangle {
+    int left = 0, top = 0, right = 0, bottom = 0;
+  };
+
   /// 0 frames: every frame is believed at once.
   SceneLayers(int settle_after_frames, const SensorNoise& sensor)
       : settle_after_frames_(settle_after_frames), sensor_(sensor) {}
@@ -62,16 +67,14 @@ class SceneLayers {
   const std::vector<Slot>& silhouettes() const { return front_slot_; }
   /// whose it is among the pixels that show that surface in this frame.
   const std::vector<Slot>& seen() const { return seen_; }
+  /// All of both that is an object lies in here.
+  const Rectangle& region() const { return region_; }
   /// Pixels seen of each object.
   const PerSlot<int>& n_seen() const { return n_seen_; }
 
  private:
   static constexpr int kBlock = 4;
   enum class Relation : uint8_t { kMissing, kFirst, kSame, kNearer, kFarther, kBehind };
-  /// Pixels left .. right - 1, top .. bottom - 1.
-  struct Rectangle {
-    int left = 0, top = 0, right = 0, bottom = 0;
-  };
 
   void Fit(const RgbdImage& image);
   Rectangle Region(std::span<const uint16_t> labels) const;
