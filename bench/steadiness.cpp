@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::vector<uint64_t> seeds = {101, 102, 103, 104, 105, 106, 107, 108, 109, 110, 111, 112};
   int frames = 100;
-  int settle = 25;
+  int settle = 12;
   std::string json;
 };
 
@@ -98,7 +98,9 @@ nlohmann::ordered_json ToJson(const Steadiness& s) {
 }
 
 nlohmann::ordered_json ToJson(const Notice& n) {
-  return {{"frames", n.after_frames}, {"right_id", n.right_id}};
+  nlohmann::ordered_json told = {{"frames", nullptr}, {"right_id", n.right_id}};
+  if (n.after_frames != Notice::kNever) told["frames"] = n.after_frames;
+  return told;
 }
 
 nlohmann::ordered_json ToJson(const Figures& f) {
