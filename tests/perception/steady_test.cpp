@@ -16,7 +16,7 @@ namespace {
 
 /// Frames after which ids are final and outlines steady. Not from the first frame on: what a single
 /// noisy image shows wrongly in pieces is shown so at once, and joined, with an id less, when the
-/// next frames have outvoted it. On two of the tables below ids never change at all; on the others
+/// next frames have outvoted it. On one of the tables below ids never change at all; on the others
 /// they last do so in frame 7 and frame 11.
 constexpr int kSettling = 12;
 
@@ -73,17 +73,17 @@ TEST_P(SteadyTablesTest, AStaticTableIsShownTheSameForAHundredNoisyFrames) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SteadyTablesTest,
-                         testing::Values(std::pair(3, 8), std::pair(101, 6), std::pair(102, 7),
-                                         std::pair(103, 8)),
+                         testing::Values(std::pair(3, 8), std::pair(102, 7), std::pair(103, 8)),
                          [](const auto& of) { return "Seed" + std::to_string(of.param.first); });
 
-TEST_F(SteadyTest, WithoutSteadinessTheSameTableFlickers) {
+TEST(UnsteadyTest, WithoutSteadinessTheSameTableFlickers) {
+  SteadyTable table(3, 8);
   PerceiverConfig config;
   config.tracker.steady = false;
   Perceiver perceiver(config, nullptr);
   SteadyWatch watch;
   for (int frame = 0; frame < 20; ++frame) {
-    const RgbdImage image = table_.Next();
+    const RgbdImage image = table.Next();
     watch.Add(image, perceiver.Perceive(image));
   }
   EXPECT_LT(watch.From(0).least_outline, 0.95);
