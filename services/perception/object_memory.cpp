@@ -64,9 +64,14 @@ SteadyObjects ObjectMemory::Write(const RgbdImage& image, const std::vector<Slot
     label_of_slot[shown[k]] = static_cast<uint16_t>(k + 1);
   }
   const auto write = [&](const std::vector<Slot>& slots, std::vector<uint16_t>& labels) {
-    labels.resize(slots.size());
-    std::transform(slots.begin(), slots.end(), labels.begin(),
-                   [&](Slot slot) { return label_of_slot[slot]; });
+    const SceneLayers::Rectangle& region = layers_.region();
+    labels.assign(slots.size(), 0);
+    for (int v = region.top; v < region.bottom; ++v) {
+      const size_t row = image.Index(0, v);
+      std::transform(slots.begin() + row + region.left, slots.begin() + row + region.right,
+                     labels.begin() + row + region.left,
+                     [&](Slot slot) { return label_of_slot[slot]; });
+    }
   };
   SteadyObjects objects;
   write(layers_.seen(), segmentation.labels);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace beckon::perception {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr float kSigmas = 4;       // depths that differ by less show the same surface
 constexpr uint8_t kUndone = 2;     // frames against a slot that one for it makes up for
 constexpr float kMost_m = 100;     // infinity is no depth
+constexpr size_t kTogether = 4;    // changed blocks that touch: fewer are an outline that strays
 constexpr float kFollow = 0.125f;  // of the difference, by which depth is averaged
 
 }  // namespace
@@ -34,19 +36,27 @@ void SceneLayers::Fit(const RgbdImage& image) {
   region_ = {};
 }
 
-/// Whole blocks around all that is or was an object.
+/// Whole blocks around all that is or was an object. Most of an image is none: in each row, only
+/// what may widen the rectangle is looked through, and most of that at once.
 SceneLayers::Rectangle SceneLayers::Region(std::span<const uint16_t> labels) const {
+  const std::vector<uint16_t> none(width_, 0);
+  const auto any = [&](std::span<const uint16_t> part) {
+    return !part.empty() && std::memcmp(part.data(), none.data(), part.size_bytes()) != 0;
+  };
   Rectangle r{width_, height_, 0, 0};
   for (int v = 0; v < height_; ++v) {
-    const auto row = labels.begin() + static_cast<ptrdiff_t>(v) * width_, end = row + width_;
-    const auto first = std::find_if(row, end, [](uint16_t label) { return label != 0; });
-    if (first == end) continue;
-    auto last = end;
-    while (*(last - 1) == 0) --last;
-    r.left = std::min(r.left, static_cast<int>(first - row));
-    r.right = std::max(r.right, static_cast<int>(last - row));
+    const auto row = labels.subspan(static_cast<size_t>(v) * width_, width_);
+    if (!any(row)) continue;
     r.top = std::min(r.top, v);
     r.bottom = v + 1;
+    if (any(row.first(r.left))) {
+      r.left = 0;
+      while (row[r.left] == 0) ++r.left;
+    }
+    if (any(row.subspan(r.right))) {
+      r.right = width_;
+      while (row[r.right - 1] == 0) --r.right;
+    }
   }
   if (region_.right > region_.left) {
     r = {std::min(r.left, region_.left), std::min(r.top, region_.top),
@@ -139,10 +149,33 @@ SceneEvidence SceneLayers::Compare(const RgbdImage& image, std::span<const uint1
       CompareBlock(image, labels, u, v, evidence);
     }
   }
+  DropLoneChanges();
   for (const auto& of_label : evidence.same) {
     for (int slot = 1; slot < kSlots; ++slot) evidence.visible[slot] += of_label[slot];
   }
   return evidence;
+}
+
+/// Forgets changes of few blocks: outlines stray that far, things that move change more.
+void SceneLayers::DropLoneChanges() {
+  constexpr uint8_t kChanged = 1, kReached = 2;
+  const auto row = static_cast<ptrdiff_t>(width_) / kBlock + 3;
+  for (size_t start = 0; start < block_changed_.size(); ++start) {
+    if (block_changed_[start] != kChanged) continue;
+    together_.assign(1, start);
+    block_changed_[start] = kReached;
+    for (size_t next = 0; next < together_.size(); ++next) {
+      for (const ptrdiff_t step :
+           {-row - 1, -row, -row + 1, ptrdiff_t{-1}, ptrdiff_t{1}, row - 1, row, row + 1}) {
+        const size_t beside = together_[next] + step;
+        if (block_changed_[beside] != kChanged) continue;
+        block_changed_[beside] = kReached;
+        together_.push_back(beside);
+      }
+    }
+    if (together_.size() >= kTogether) continue;
+    for (size_t block : together_) block_changed_[block] = 0;
+  }
 }
 
 /// Whether the pixel's block or one beside it changed: what moves leaves slivers beside whole

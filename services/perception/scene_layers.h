@@ -36,12 +36,17 @@ struct SlotTraits {
 /// Two layers of depth and slots per pixel. Where depth stays, a pixel changes hands only after
 /// `settle_after_frames` that speak for it, less two for each that speaks against it: what
 /// segmentation gets wrong now and then never shows. Where the depth of most of a block of 4 x 4
-/// pixels changes by more than the noise, the new frame is believed at once; a change of fewer
-/// pixels is how ragged outlines are in depth images, and believed like the rest. When an object
-/// comes before another, the pixels of the latter are kept behind, and are its own again once their
-/// depth comes back; seeing farther empties the place.
+/// pixels changes by more than the noise, and that of several blocks that touch, the new frame is
+/// believed at once; a change of fewer is how ragged outlines are in depth images, and believed
+/// like the rest. When an object comes before another, the pixels of the latter are kept behind,
+/// and are its own again once their depth comes back; seeing farther empties the place.
 class SceneLayers {
  public:
+  /// Pixels left .. right - 1, top .. bottom - 1.
+  struct Rectangle {
+    int left = 0, top = 0, right = 0, bottom = 0;
+  };
+
   /// 0 frames: every frame is believed at once.
   SceneLayers(int settle_after_frames, const SensorNoise& sensor)
       : settle_after_frames_(settle_after_frames), sensor_(sensor) {}
@@ -62,16 +67,14 @@ class SceneLayers {
   const std::vector<Slot>& silhouettes() const { return front_slot_; }
   /// whose it is among the pixels that show that surface in this frame.
   const std::vector<Slot>& seen() const { return seen_; }
+  /// All of both that is an object lies in here.
+  const Rectangle& region() const { return region_; }
   /// Pixels seen of each object.
   const PerSlot<int>& n_seen() const { return n_seen_; }
 
  private:
   static constexpr int kBlock = 4;
   enum class Relation : uint8_t { kMissing, kFirst, kSame, kNearer, kFarther, kBehind };
-  /// Pixels left .. right - 1, top .. bottom - 1.
-  struct Rectangle {
-    int left = 0, top = 0, right = 0, bottom = 0;
-  };
 
   void Fit(const RgbdImage& image);
   Rectangle Region(std::span<const uint16_t> labels) const;
@@ -81,6 +84,7 @@ class SceneLayers {
              SceneEvidence& evidence) const;
   void CompareBlock(const RgbdImage& image, std::span<const uint16_t> labels, int bu, int bv,
                     SceneEvidence& evidence);
+  void DropLoneChanges();
   bool ChangedAround(int u, int v) const;
   void TakePixel(size_t pixel, float depth_m, Slot slot, bool changed, const SlotTraits& traits);
   void Replace(size_t pixel, float depth_m, Slot slot, const SlotTraits& traits);
@@ -94,6 +98,7 @@ class SceneLayers {
   std::vector<uint8_t> doubt_;                         // frames against the front's slot
   std::vector<Relation> relation_;                     // of the frame compared last
   std::vector<uint8_t> block_changed_;                 // with a border of one block
+  std::vector<size_t> together_;                       // changed blocks that touch
   PerSlot<int> n_seen_{};
   Rectangle region_;  // the same
 };

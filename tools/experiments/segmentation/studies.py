@@ -4,6 +4,7 @@ from segmentation import score_studies
 from segmentation.pictures import pictures
 from segmentation.scenes import EMBEDDED_SEEDS, crowded_scenes, embedded_scenes, real_scenes
 from segmentation.scores import Scorer, judge
+from segmentation.steadiness import steadiness
 from segmentation.time_studies import growth, time_per_step
 
 
@@ -26,8 +27,9 @@ def run_all(lab, report, tools_folder, data, capture):
     timed = next(iter(scenes))
     time_per_step(report, score_studies.TITLES[timed].lower(), segmented[timed])
     growth(lab, report)
+    watched = steadiness(lab, report)
     pictures(lab, report, scenes, {key: told for some in segmented.values() for key, told in some.items()})
-    return not missing and len(scenes) == 3
+    return not missing and len(scenes) == 3 and watched
 
 
 def gather(lab, report, data, capture):
