@@ -53,7 +53,7 @@ TEST_P(SteadyTablesTest, AStaticTableIsShownTheSameForAHundredNoisyFrames) {
   Perceiver perceiver({}, nullptr);
   SteadyWatch watch;
   Perception now;
-  for (int frame = 0; frame < 100; ++frame) {
+  for (int frame = 0; frame < kSettling + 100; ++frame) {
     const RgbdImage image = table.Next();
     now = perceiver.Perceive(image);
     watch.Add(image, now);
