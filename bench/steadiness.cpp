@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::vector<uint64_t> seeds = {101, 102, 103, 104, 105, 106, 107, 108, 109, 110, 111, 112};
   int frames = 100;
-  int settle = 12;
+  int settle = 15;
   std::string json;
 };
 

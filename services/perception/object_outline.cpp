@@ -9,9 +9,10 @@
 namespace beckon::perception {
 namespace {
 
-constexpr int kCloses_px = 2;      // gaps of depth that an outline passes over
-constexpr double kChanged = 0.02;  // part of a silhouette that changed: its outline is drawn anew
-constexpr size_t kChanged_px = 6;  // but no fewer pixels
+constexpr double kSmooth_px = 1.5;  // of the blur that evens ragged outlines and closes small gaps
+constexpr int kMargin_px = 2;
+constexpr double kChanged = 0.01;  // part of a silhouette that changed: its outline is drawn anew
+constexpr size_t kChanged_px = 3;  // but no fewer pixels
 
 /// Twice the signed area; positive where the polygon runs clockwise as seen (v points down).
 double TwiceArea(const std::vector<cv::Point>& polygon) {
@@ -32,15 +33,24 @@ std::pair<cv::Mat, cv::Point> Mask(int width, std::span<const uint32_t> pixels) 
     const int u = static_cast<int>(pixel) % width;
     left = std::min(left, u), right = std::max(right, u);
   }
-  const int top = static_cast<int>(pixels.front()) / width - kCloses_px;
-  const int bottom = static_cast<int>(pixels.back()) / width + kCloses_px;
-  left -= kCloses_px, right += kCloses_px;
+  const int top = static_cast<int>(pixels.front()) / width - kMargin_px;
+  const int bottom = static_cast<int>(pixels.back()) / width + kMargin_px;
+  left -= kMargin_px, right += kMargin_px;
   cv::Mat mask = cv::Mat::zeros(bottom - top + 1, right - left + 1, CV_8U);
   for (uint32_t pixel : pixels) {
     mask.at<uint8_t>(static_cast<int>(pixel) / width - top,
                      static_cast<int>(pixel) % width - left) = 255;
   }
   return {mask, {left, top}};
+}
+
+std::vector<cv::Point> LargestContour(const cv::Mat& mask, const cv::Point& corner) {
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, corner);
+  const auto largest = std::max_element(
+      contours.begin(), contours.end(),
+      [](const auto& a, const auto& b) { return std::abs(TwiceArea(a)) < std::abs(TwiceArea(b)); });
+  return largest == contours.end() ? std::vector<cv::Point>() : *largest;
 }
 
 /// How many pixels only one of two ascending lists has.
@@ -58,18 +68,14 @@ size_t Difference(std::span<const uint32_t> a, std::span<const uint32_t> b) {
 
 std::vector<std::array<int16_t, 2>> DrawOutline(int width, std::span<const uint32_t> pixels) {
   if (pixels.empty()) return {};
-  auto [mask, corner] = Mask(width, pixels);
-  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE,
-                   cv::Mat::ones(2 * kCloses_px + 1, 2 * kCloses_px + 1, CV_8U));
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, corner);
-  const auto largest = std::max_element(
-      contours.begin(), contours.end(),
-      [](const auto& a, const auto& b) { return std::abs(TwiceArea(a)) < std::abs(TwiceArea(b)); });
-  if (largest == contours.end()) return {};
+  const auto [mask, corner] = Mask(width, pixels);
+  cv::Mat smooth;
+  cv::GaussianBlur(mask, smooth, {}, kSmooth_px);
+  auto contour = LargestContour(smooth >= 128, corner);
+  if (contour.empty()) contour = LargestContour(mask, corner);  // all of it is thin
   std::vector<cv::Point> polygon;
   for (double tolerance_px = 0.6;; tolerance_px *= 1.3) {
-    cv::approxPolyDP(*largest, polygon, tolerance_px, true);
+    cv::approxPolyDP(contour, polygon, tolerance_px, true);
     if (static_cast<int>(polygon.size()) <= kMaxOutline) break;
   }
   if (TwiceArea(polygon) < 0) std::reverse(polygon.begin(), polygon.end());

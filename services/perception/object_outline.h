@@ -14,8 +14,9 @@ namespace beckon::perception {
 /// Most vertices of an outline.
 inline constexpr int kMaxOutline = 64;
 
-/// The largest outer contour of some pixels of an image (row-major, ascending), small gaps closed,
-/// simplified until it has few enough vertices. Clockwise as seen.
+/// The largest outer contour of some pixels of an image (row-major, ascending), its ragged edge
+/// smoothed and small gaps closed, simplified until it has few enough vertices. Clockwise as seen.
+/// Smoothing keeps it steady: a pixel more or less opens or closes no gap by itself.
 std::vector<std::array<int16_t, 2>> DrawOutline(int width, std::span<const uint32_t> pixels);
 
 /// Keeps an object's outline for as long as its silhouette hardly changes.

@@ -16,9 +16,9 @@ namespace {
 
 /// Frames after which ids are final and outlines steady. Not from the first frame on: what a single
 /// noisy image shows wrongly in pieces is shown so at once, and joined, with an id less, when the
-/// next frames have outvoted it. On one of the tables below ids never change at all; on the others
-/// they last do so in frame 7 and frame 11.
-constexpr int kSettling = 12;
+/// next frames have outvoted it. On two of the tables below ids never change at all; on the other
+/// they last do so in frame 14.
+constexpr int kSettling = 15;
 
 /// Eight objects that have settled, and their ids.
 class SteadyTest : public testing::Test {
