@@ -170,6 +170,7 @@ class RevolutionFit {
 
 std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
                             const std::vector<int>& members) {
+  if (members.size() < kFewestPatches) return std::nullopt;
   const auto patches = WallOf(scene, axes, members);
   if (patches.size() < kFewestPatches || Arc(patches) < kLeastArc) return std::nullopt;
   RevolutionFit fit(patches);

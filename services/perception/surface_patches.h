@@ -28,7 +28,6 @@ struct Patch {
   float seen_m2 = 0;                          // across the line of sight
   Eigen::Vector3f steady_normal_C{0, 0, -1};  // averaged over neighbours that hardly differ
   float normal_sigma = 0;                     // rad, of the normal by the sensor's noise
-  Eigen::Vector3f colour{0, 0, 0};
 
   float InverseDepth(const Eigen::Vector3f& ray) const { return slope.dot(ray); }
 };

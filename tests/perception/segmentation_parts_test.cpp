@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "services/perception/depth_smoothing.h"
 #include "services/perception/flat_blocks.h"
@@ -162,6 +163,23 @@ struct PatchesOnly {
   PatchScene scene{grid, cells, patches, edges, table_C, sensor};
   std::vector<int> all;
 
+  /// Gives each patch its cells, 10 x 10 of them.
+  void Draw() {
+    grid.width = grid.height = 160;
+    grid.fx = grid.fy = 262;
+    grid.cx = 60;
+    patches.patch_of_cell.assign(grid.width * grid.height, SurfacePatches::kNone);
+    for (int i : all) {
+      Patch& patch = patches.patches[i];
+      patch.u = grid.cx + grid.fx * patch.centre_C.x() / patch.centre_C.z();
+      patch.v = grid.cy + grid.fy * patch.centre_C.y() / patch.centre_C.z();
+      for (int cell = 0; cell < 100; ++cell) {
+        patches.patch_of_cell[grid.Index(static_cast<int>(patch.u) + cell % 10 - 5,
+                                         static_cast<int>(patch.v) + cell / 10 - 5)] = i;
+      }
+    }
+  }
+
   void Add(const Eigen::Vector3f& centre, const Eigen::Vector3f& normal) {
     all.push_back(static_cast<int>(patches.patches.size()));
     patches.patches.push_back(PatchAt(centre, normal));
@@ -252,6 +270,23 @@ TEST(JoinInsides, TakesWhatTheRimShowsAndNotWhatTheVesselStandsOn) {
   JoinInsides(scene.scene, groups);
   EXPECT_EQ(groups.Of(inside), groups.Of(0));
   EXPECT_NE(groups.Of(below), groups.Of(0));
+}
+
+TEST(JoinFragments, WhatFloatsBelongsToWhatIsNear) {
+  // A wall of a mug, and its handle beside it: on the table, in the air, and in the air far away.
+  for (const auto& [x, h, joined] :
+       {std::tuple(0.045f, 0.01f, false), std::tuple(0.045f, 0.05f, true),
+        std::tuple(0.12f, 0.05f, false)}) {
+    PatchesOnly scene;
+    for (float height : {0.02f, 0.05f, 0.08f}) scene.Add({0, 0.3f - height, 0.9f}, {0, 0, -1});
+    scene.Add({x, 0.3f - h, 0.9f}, {0, 0, -1});
+    for (Patch& patch : scene.patches.patches) patch.area_m2 = 0.0011f;
+    scene.patches.patches.back().area_m2 = 0.0003f;
+    scene.Draw();
+    PatchGroups groups({0, 0, 0, 1});
+    JoinFragments(scene.scene, groups);
+    EXPECT_EQ(groups.Of(3) == groups.Of(0), joined) << x << " m beside, " << h << " m high";
+  }
 }
 
 TEST(IsBottom, IsSeenThroughTheRim) {
