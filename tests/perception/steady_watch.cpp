@@ -160,9 +160,10 @@ double Accuracy(const Perception& perception, const std::vector<uint16_t>& truth
   return best;
 }
 
-Notice WatchMove(SteadyTable& table, Perceiver& perceiver, int object, double dx_m, double dy_m) {
-  const int id = IdOf(perceiver.Perceive(table.Next()), table.labels(), object);
-  table.Move(object, dx_m, dy_m);
+namespace {
+
+/// Until an object is shown well where it is, and whether under this id.
+Notice WatchShown(SteadyTable& table, Perceiver& perceiver, int object, int id) {
   Notice notice;
   notice.after_frames = FramesUntil(table, perceiver, [&](const Perception& now) {
     return Accuracy(now, table.labels(), object) > kShownWell;
@@ -171,6 +172,14 @@ Notice WatchMove(SteadyTable& table, Perceiver& perceiver, int object, double dx
     return IdOf(now, table.labels(), object) == id;
   });
   return notice;
+}
+
+}  // namespace
+
+Notice WatchMove(SteadyTable& table, Perceiver& perceiver, int object, double dx_m, double dy_m) {
+  const int id = IdOf(perceiver.Perceive(table.Next()), table.labels(), object);
+  table.Move(object, dx_m, dy_m);
+  return WatchShown(table, perceiver, object, id);
 }
 
 Notice WatchRemoval(SteadyTable& table, Perceiver& perceiver, int object) {
@@ -185,14 +194,7 @@ Notice WatchRemoval(SteadyTable& table, Perceiver& perceiver, int object) {
 
 Notice WatchReturn(SteadyTable& table, Perceiver& perceiver, int object, int id) {
   table.PutBack(object);
-  Notice notice;
-  notice.after_frames = FramesUntil(table, perceiver, [&](const Perception& now) {
-    return Accuracy(now, table.labels(), object) > kShownWell;
-  });
-  notice.right_id = StaysSo(table, perceiver, [&](const Perception& now) {
-    return IdOf(now, table.labels(), object) == id;
-  });
-  return notice;
+  return WatchShown(table, perceiver, object, id);
 }
 
 }  // namespace beckon::perception
