@@ -28,8 +28,6 @@ class PatchGroups {
   const std::vector<int>& Members(int group) const { return members_[group]; }
   /// Puts all of `gone` into `keep`.
   void Join(int keep, int gone);
-  /// Puts one patch into another group.
-  void Move(int patch, int group);
 
  private:
   std::vector<int> of_patch_;
@@ -46,14 +44,8 @@ struct Grouping {
 
 /// The object of each patch, in five steps: local evidence (grouping_rules.h), insides to their
 /// vessels (vessel_rule.h), necks to their bottles (neck_rule.h), what an occluder cut apart
-/// (occlusion_rule.h), fragments to what they touch or hang on.
+/// (occlusion_rule.h), fragments to what they touch or hang on
+/// (fragment_rule.h).
 Grouping GroupPatches(const PatchScene& scene);
-
-/// Joins groups of less than `kFragment_m2` to the one they share the longest border with. Small
-/// ones that touch nothing, and are not on the table, are handles, caps and the like seen across a
-/// gap of depth: nothing floats, so they join what is nearest.
-void JoinFragments(const PatchScene& scene, PatchGroups& groups);
-
-inline constexpr float kFragment_m2 = 0.0030f;
 
 }  // namespace beckon::perception

@@ -26,8 +26,9 @@ struct Wall {
 };
 
 /// Fits an upright body of revolution to patches: p = c + (r0 + r1 h + r2 h^2) n, with p and n the
-/// patch's centre and normal seen from above and h its height; linear least squares. Nothing where
-/// the patches do not fit within the noise, or too little of the circle is seen to be sure.
+/// patch's centre and normal seen from above and h its height, by linear least squares, then the
+/// distances |p - c| = r(h) by Gauss-Newton. Nothing where the patches do not fit within the noise,
+/// or too little of the circle is seen to be sure.
 std::optional<Wall> FitWall(const PatchScene& scene, const PlaneAxes& axes,
                             const std::vector<int>& members);
 

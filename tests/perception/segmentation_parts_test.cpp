@@ -8,6 +8,7 @@
 
 #include "services/perception/depth_smoothing.h"
 #include "services/perception/flat_blocks.h"
+#include "services/perception/fragment_rule.h"
 #include "services/perception/grouping_rules.h"
 #include "services/perception/neck_rule.h"
 #include "services/perception/region_clustering.h"
