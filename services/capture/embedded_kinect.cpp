@@ -95,6 +95,19 @@ bool AtOutline(const std::vector<float>& disparity, int width, int height, int u
   return false;
 }
 
+/// The depth beside a pixel that differs most from its own.
+float AcrossOutline(const std::vector<float>& disparity, int width, int height, int u, int v) {
+  const float d = disparity[static_cast<size_t>(v) * width + u];
+  float across = d;
+  for (int y = std::max(0, v - 1); y <= std::min(height - 1, v + 1); ++y) {
+    for (int x = std::max(0, u - 1); x <= std::min(width - 1, u + 1); ++x) {
+      const float other = disparity[static_cast<size_t>(y) * width + x];
+      if (other > 0 && std::abs(other - d) > std::abs(across - d)) across = other;
+    }
+  }
+  return across;
+}
+
 /// The value below which a unit normal falls with the given probability (logistic approximation).
 float Quantile(double probability) {
   const double p = std::clamp(probability, 1e-4, 1 - 1e-4);
@@ -160,6 +173,43 @@ KinectNoise RandomKinectNoise(Random& random) {
   return noise;
 }
 
+DepthCamera RandomDepthCamera(Random& random) {
+  DepthCamera camera;
+  const double kind = random.Unit();
+  double focal_px = random.Uniform(515, 585);
+  if (kind < 0.55) {
+    camera.noise = RandomKinectNoise(random);
+  } else if (kind <
+             0.78) {  // time of flight: no pattern, so no steps and no shadow, but mixed pixels
+    KinectNoise& noise = camera.noise;
+    focal_px = random.Uniform(345, 560);
+    noise.sigma_px = random.Uniform(0.02, 0.06);
+    noise.coarse_sigma_px = random.Uniform(0.01, 0.04);
+    noise.step_px = 0.005;
+    noise.smoothing_px = random.Uniform(0.4, 0.9);
+    noise.ragged_px = random.Uniform(0.3, 0.7);
+    noise.edge_dropout = random.Uniform(0.0, 0.25);
+    noise.shadow_dropout = 0;
+    noise.flying = random.Uniform(0.1, 0.6);
+  } else {  // active stereo: a short base, wide windows
+    KinectNoise& noise = camera.noise;
+    focal_px = random.Uniform(385, 625);
+    noise.baseline_focal_m_px = 0.05 * focal_px;
+    noise.sigma_px = random.Uniform(0.01, 0.03);
+    noise.coarse_sigma_px = random.Uniform(0.02, 0.06);
+    noise.coarse_correlation_u_px = random.Uniform(2.5, 6);
+    noise.coarse_correlation_v_px = random.Uniform(2.5, 6);
+    noise.step_px = 0.03125;
+    noise.smoothing_px = random.Uniform(1.2, 2.6);
+    noise.ragged_px = random.Uniform(0.7, 1.6);
+    noise.edge_dropout = random.Uniform(0.0, 0.15);
+    noise.shadow_dropout = random.Uniform(0.1, 0.7);
+  }
+  camera.intrinsics = {focal_px, focal_px, 319.5 + random.Uniform(-8, 8),
+                       239.5 + random.Uniform(-8, 8)};
+  return camera;
+}
+
 KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, Random& random) {
   const Window& window = rendering.window;
   const int w = window.width, h = window.height;
@@ -175,7 +225,7 @@ KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, 
   const auto coarse =
       SmoothNoise(w, h, noise.coarse_correlation_u_px, noise.coarse_correlation_v_px, random);
   const auto blotches = SmoothNoise(w, h, 1.6, 1.6, random);
-  const float shadow_limit = Quantile(noise.shadow_dropout),
+  const float shadow_limit = noise.shadow_dropout > 0 ? Quantile(noise.shadow_dropout) : -1e9f,
               edge_limit = Quantile(noise.edge_dropout);
   KinectDepth out;
   out.depth_m.assign(window.Size(), 0.0f);
@@ -187,8 +237,13 @@ KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, 
       if (rendering.unlit[s] && blotches[i] < shadow_limit) continue;
       const double lost = SurfaceDropout(rendering.incidence[s], rendering.metal[s]);
       if (lost > 0.02 && blotches[i] < Quantile(lost)) continue;
-      if (blotches[i] < edge_limit && AtOutline(disparity, w, h, u, v)) continue;
-      const double noisy = smooth[i] + noise.sigma_px * fine[i] + noise.coarse_sigma_px * coarse[i];
+      const bool at_outline = AtOutline(disparity, w, h, u, v);
+      if (blotches[i] < edge_limit && at_outline) continue;
+      double seen = smooth[i];
+      if (at_outline && noise.flying > 0 && random.Chance(noise.flying)) {
+        seen += random.Unit() * (AcrossOutline(disparity, w, h, u, v) - seen);
+      }
+      const double noisy = seen + noise.sigma_px * fine[i] + noise.coarse_sigma_px * coarse[i];
       const double stepped = std::round(noisy / noise.step_px) * noise.step_px;
       if (!(stepped > 4)) continue;  // beyond 10 m
       out.depth_m[i] = static_cast<float>(std::round(1000 * product / stepped) / 1000);

@@ -24,10 +24,19 @@ struct KinectNoise {
   double ragged_px = 0.7;       // how far outlines stray
   double edge_dropout = 0.06;   // share of outline pixels without depth
   double shadow_dropout = 0.7;  // share of the projector's shadow without depth
+  double flying = 0;            // share of outline pixels that lie between the two surfaces
 };
 
 /// The noise of one camera at one moment.
 KinectNoise RandomKinectNoise(Random& random);
+
+/// A depth camera that a lab may have: a projected pattern (Kinect 1, Xtion), time of flight
+/// (Kinect 2, Azure) or active stereo (RealSense), its image registered to 640x480.
+struct DepthCamera {
+  Intrinsics intrinsics;
+  KinectNoise noise;
+};
+DepthCamera RandomDepthCamera(Random& random);
 
 struct KinectDepth {
   std::vector<float> depth_m;    // 0 = no depth; whole millimetres

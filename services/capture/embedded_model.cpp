@@ -51,6 +51,17 @@ Model MakeModel(size_t category, Random& random) {
   return model;
 }
 
+void RestLike(const std::string& category, Model& model) {
+  Random random(1);
+  for (size_t c = 0; c < kCategories.size(); ++c) {
+    if (category != kCategories[c]) continue;
+    const Model typical = kMakers[c](random);
+    model.lying = typical.lying;
+    model.upside_down = typical.upside_down;
+    model.any_face = typical.any_face;
+  }
+}
+
 Pose RestingPose(const Model& model, Random& random) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const auto turn = [](double angle, const Eigen::Vector3d& axis) {

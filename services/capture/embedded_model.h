@@ -34,8 +34,17 @@ struct Model {
 inline constexpr std::array<const char*, 11> kCategories = {
     "Bottle", "Bowl", "Box", "Can", "Carton", "Cup", "Mug", "SprayCan", "Tin", "Tube", "Tub"};
 
+/// The category of things that are of none of those.
+inline constexpr const char* kUnknown = "Unknown";
+
 /// A fresh object of the category `kCategories[category]`.
 Model MakeModel(size_t category, Random& random);
+
+/// A fresh thing of no category: a book, a tool, a hand, crockery, fruit, a gadget.
+Model MakeUnknownModel(Random& random);
+
+/// Gives a model that was not made here the habits of its category; one of no category stands.
+void RestLike(const std::string& category, Model& model);
 
 /// One way the object rests on the plane z = 0: rotation, and height of O's origin; x = y = 0.
 Pose RestingPose(const Model& model, Random& random);

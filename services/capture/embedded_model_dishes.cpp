@@ -24,18 +24,33 @@ std::vector<OutlinePoint> OpenVessel(double base, double rim, double height, dou
           {0, 5 * kMm, inside}};
 }
 
+/// How much wider a bulging wall is at a share of its height.
+double Swell(double bulge, double share) {
+  return 1 + bulge * std::sin(std::numbers::pi * std::clamp(share, 0.0, 1.0));
+}
+
+/// Widens a vessel of the given height towards its middle.
+void Bulge(Mesh& mesh, double bulge, double height) {
+  for (auto& p : mesh.positions) {
+    p.head<2>() *= static_cast<float>(Swell(bulge, static_cast<double>(p.z()) / height));
+  }
+}
+
 }  // namespace
 
 Model MakeBowl(Random& random) {
   Model model;
-  const double radius = Mm(random, 55, 105), height = 2 * radius * random.Uniform(0.3, 0.6);
-  const double foot = radius * random.Uniform(0.3, 0.6), thickness = Mm(random, 2.5, 6);
+  const bool steep = random.Chance(0.25);  // a ramekin, a salad bowl
+  const double radius = Mm(random, steep ? 42 : 55, 105);
+  const double height = 2 * radius * random.Uniform(steep ? 0.35 : 0.2, 0.58);
+  const double foot = radius * (steep ? random.Uniform(0.6, 0.92) : random.Uniform(0.3, 0.65));
+  const double thickness = Mm(random, 2.5, 6);
   const Rgb colour = CrockeryColour(random);
   const uint32_t outside = model.AddMaterial(CrockeryTexture(random, colour), 0.5f);
   const uint32_t inside =
       model.AddMaterial(PlainTexture(random.Chance(0.7) ? colour : CrockeryColour(random)), 0.5f);
   const double foot_height = random.Chance(0.5) ? Mm(random, 3, 10) : 0;
-  const double roundness = random.Uniform(0.35, 0.75);
+  const double roundness = random.Uniform(0.3, 1.0);
   std::vector<OutlinePoint> outline = {{0, foot_height, outside},
                                        {foot * 0.9, foot_height, outside},
                                        {foot * 0.95, 0, outside},
@@ -81,7 +96,21 @@ Model MakeCup(Random& random) {
                    {{rim, height - 3 * kMm, outside}, {rim + lip, height - 2 * kMm, outside}});
     outline[5] = {rim + lip, height, inside};
   }
+  if (random.Chance(0.15)) {  // coffee to go: a lid on it
+    const uint32_t lid = model.AddMaterial(PlainTexture(CrockeryColour(random)), 0.3f);
+    const double over = Mm(random, 1, 3), lid_height = Mm(random, 8, 18);
+    outline = {{0, 2 * kMm, outside},
+               {base * 0.95, 0, outside},
+               {rim, height, lid},
+               {rim + over, height, lid},
+               {rim + over, height + 3 * kMm, lid},
+               {rim * 0.9, height + lid_height, lid},
+               {rim * 0.82, height + lid_height, lid},
+               {rim * 0.8, height + lid_height - 4 * kMm, lid},
+               {0, height + lid_height - 4 * kMm, lid}};
+  }
   model.mesh = Turn(outline);
+  if (random.Chance(0.2)) Bulge(model.mesh, random.Uniform(-0.12, 0.18), height);
   model.lying = 0.1;
   model.upside_down = 0.2;
   return model;
@@ -89,18 +118,23 @@ Model MakeCup(Random& random) {
 
 Model MakeMug(Random& random) {
   Model model;
-  const double radius = Mm(random, 36, 50), height = Mm(random, 80, 120),
-               thickness = Mm(random, 3, 5);
-  const double base =
-      radius * (random.Chance(0.6) ? random.Uniform(0.95, 1) : random.Uniform(0.75, 0.95));
+  const bool wide = random.Chance(0.2);  // a tea or soup cup with a handle
+  const double radius = wide ? Mm(random, 40, 60) : Mm(random, 35, 50);
+  const double height = wide ? radius * random.Uniform(1.1, 1.6) : Mm(random, 75, 135);
+  const double thickness = Mm(random, 2.5, 5);
+  const double base = radius * (wide                 ? random.Uniform(0.55, 0.95)
+                                : random.Chance(0.6) ? random.Uniform(0.95, 1.03)
+                                                     : random.Uniform(0.7, 0.95));
+  const double bulge = random.Chance(0.35) ? random.Uniform(-0.08, 0.2) : 0;
   const Rgb colour = CrockeryColour(random);
   const uint32_t outside = model.AddMaterial(CrockeryTexture(random, colour), 0.5f);
   const uint32_t inside =
       model.AddMaterial(PlainTexture(random.Chance(0.7) ? colour : CrockeryColour(random)), 0.5f);
   const uint32_t plain = model.AddMaterial(PlainTexture(colour), 0.5f);
   model.mesh = Turn(OpenVessel(base, radius, height, thickness, outside, inside));
-  const double reach = Mm(random, 24, 40), low = height * random.Uniform(0.1, 0.28),
-               high = height * random.Uniform(0.75, 0.93);
+  Bulge(model.mesh, bulge, height);
+  const double reach = Mm(random, 20, 42), low = height * random.Uniform(0.08, 0.4),
+               high = height * random.Uniform(0.72, 0.95);
   const double squareness = random.Uniform(0.5, 1);
   std::vector<Eigen::Vector3d> path;
   constexpr int kSteps = 14;
@@ -110,7 +144,8 @@ Model MakeMug(Random& random) {
     const double up =
         std::copysign(std::pow(std::abs(std::cos(angle)), squareness), std::cos(angle));
     const double z = (low + high) / 2 - (high - low) / 2 * up;
-    const double wall = base + (radius - base) * z / height - thickness / 2;
+    const double wall =
+        (base + (radius - base) * z / height) * Swell(bulge, z / height) - thickness / 2;
     path.push_back({wall + reach * out, 0, z});
   }
   model.mesh.Append(Sweep(path, {0, 1, 0}, Mm(random, 4.5, 10), Mm(random, 3, 5.5), plain));
@@ -182,7 +217,7 @@ Model MakeTub(Random& random) {
   Model model;
   const double radius = Mm(random, 45, 125);
   const double height = std::min(Mm(random, 40, 140), radius * random.Uniform(0.7, 1.9));
-  const bool round = random.Chance(0.6), lidded = random.Chance(0.67);
+  const bool round = random.Chance(0.6), lidded = random.Chance(0.75);
   const double exponent = round ? 2 : random.Uniform(4, 9);
   const double flatness = round ? 1 : random.Uniform(0.6, 1);
   const double base = radius * random.Uniform(0.72, 0.95);

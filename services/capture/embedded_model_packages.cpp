@@ -35,6 +35,16 @@ void AddScrewCap(Model& model, Random& random, const Eigen::Vector3d& at, double
   model.mesh.Append(cap);
 }
 
+/// The lid's flaps of a box that was opened.
+void AddFlaps(Model& model, Random& random, const Eigen::Vector3d& size, uint32_t print) {
+  const double x = size.x() / 2, y = size.y() / 2, z = size.z();
+  for (int s : {-1, 1}) {
+    const double open = random.Uniform(0.2, 2.2), length = size.y() * random.Uniform(0.6, 0.95);
+    const double out = s * (y + length * std::cos(open) * -1), up = z + length * std::sin(open);
+    AddQuad(model.mesh, {{{-x, s * y, z}, {x, s * y, z}, {x, out, up}, {-x, out, up}}}, print);
+  }
+}
+
 void MakeGable(Model& model, Random& random) {
   const double side = Mm(random, 55, 100), body = Mm(random, 80, 200),
                roof = side * random.Uniform(0.35, 0.6);
@@ -61,8 +71,8 @@ void MakeGable(Model& model, Random& random) {
 }
 
 void MakeBrick(Model& model, Random& random) {
-  const double width = Mm(random, 50, 100), depth = width * random.Uniform(0.6, 1),
-               height = Mm(random, 100, 220);
+  const double width = Mm(random, 45, 105), depth = width * random.Uniform(0.6, 1),
+               height = std::max(Mm(random, 95, 245), width * 1.35);
   model.mesh = BoxMesh({width, depth, height}, PrintedFaces(model, random, {width, depth, height}));
   const double kind = random.Unit();
   if (kind < 0.35) {  // a slanted top with a cap
@@ -87,20 +97,25 @@ void MakeBrick(Model& model, Random& random) {
 Model MakeBox(Random& random) {
   Model model;
   Eigen::Vector3d size;
-  switch (random.Int(0, 3)) {
+  switch (random.Int(0, 4)) {
     case 0:  // cereals, tea
       size = {Mm(random, 100, 200), Mm(random, 30, 80), Mm(random, 150, 290)};
       break;
     case 1:  // medicine, light bulbs
       size = {Mm(random, 50, 80), Mm(random, 50, 80), Mm(random, 120, 180)};
       break;
-    case 2:  // flat: games, sweets
+    case 2:  // small: butter, jelly, soap, cards
+      size = {Mm(random, 80, 150), Mm(random, 22, 50), Mm(random, 45, 110)};
+      break;
+    case 3:  // flat: games, sweets
       size = {Mm(random, 80, 200), Mm(random, 40, 130), Mm(random, 20, 50)};
       break;
     default:  // gift, tissue
       size = {Mm(random, 90, 180), Mm(random, 90, 180), Mm(random, 80, 180)};
   }
-  model.mesh = BoxMesh(size, PrintedFaces(model, random, size));
+  const auto faces = PrintedFaces(model, random, size);
+  model.mesh = BoxMesh(size, faces);
+  if (random.Chance(0.12)) AddFlaps(model, random, size, faces[2]);
   model.any_face = true;
   return model;
 }

@@ -27,62 +27,145 @@ Texture Wrap(Random& random, double radius, double height) {
 
 }  // namespace
 
+namespace {
+
+/// What the kinds of bottles differ in; m, and shares of the height.
+struct BottleShape {
+  double height = 0, radius = 0;
+  double neck = 0;        // radius
+  double shoulder = 0;    // height where the body ends
+  double neck_start = 0;  // and where the neck begins
+  double cap = 0, cap_height = 0;
+  double flatness = 1;  // depth over width of the body
+  double exponent = 2;  // of its cross-section
+  double taper = 1;     // radius at the shoulder over that at the base
+  double neck_flatness = 1;
+};
+
+/// Water, juice, wine, sauce, medicine.
+BottleShape SlenderBottle(Random& random) {
+  BottleShape b;
+  b.height = Mm(random, 130, 310);
+  b.radius = std::min(Mm(random, 22, 50), b.height * random.Uniform(0.12, 0.3));
+  b.neck = std::min(Mm(random, 10, 20), b.radius * 0.75);
+  b.cap_height = Mm(random, 10, 32);
+  b.shoulder = b.height * random.Uniform(0.42, 0.78);
+  b.neck_start = std::min(b.height - b.cap_height - 4 * kMm,
+                          b.shoulder + std::max(b.radius * random.Uniform(0.4, 1.4), 10 * kMm));
+  b.cap = b.neck * random.Uniform(1.02, 1.25);
+  b.taper = random.Chance(0.25) ? random.Uniform(0.8, 1.1) : 1;
+  return b;
+}
+
+/// Detergent, shampoo, ketchup: flattened plastic, the body nearly up to a wide cap.
+BottleShape FlatBottle(Random& random) {
+  BottleShape b;
+  b.height = Mm(random, 120, 280);
+  b.radius = std::min(Mm(random, 28, 62), b.height * 0.3);
+  b.flatness = random.Uniform(0.42, 0.85);
+  b.exponent = random.Chance(0.5) ? random.Uniform(2.2, 4) : 2;
+  const double depth = b.radius * b.flatness;
+  b.cap = std::min(Mm(random, 12, 30), depth * 1.05);
+  b.neck = b.cap * random.Uniform(0.8, 0.98);
+  b.cap_height = Mm(random, 15, 50);
+  b.shoulder = b.height * random.Uniform(0.5, 0.72);
+  b.neck_start =
+      std::min(b.height - b.cap_height - 2 * kMm, b.shoulder + b.radius * random.Uniform(0.3, 1.2));
+  b.taper = random.Uniform(0.85, 1.12);
+  b.neck_flatness = random.Uniform(0.8, 1);
+  return b;
+}
+
+/// Jugs, milk and bleach: squarish, with a short neck.
+BottleShape SquareBottle(Random& random) {
+  BottleShape b;
+  b.height = Mm(random, 90, 300);
+  b.radius = std::clamp(b.height * random.Uniform(0.16, 0.3), 20 * kMm, 75 * kMm);
+  b.flatness = random.Uniform(0.6, 1);
+  b.exponent = random.Uniform(3, 9);
+  b.neck = std::min(Mm(random, 10, 24), b.radius * 0.6 * b.flatness);
+  b.cap_height = Mm(random, 10, 26);
+  b.shoulder = b.height * random.Uniform(0.6, 0.82);
+  b.neck_start =
+      std::min(b.height - b.cap_height - 2 * kMm, b.shoulder + b.radius * random.Uniform(0.3, 1));
+  b.cap = b.neck * random.Uniform(1.05, 1.3);
+  return b;
+}
+
+void AddDispenser(Model& model, Random& random, const BottleShape& b) {
+  const uint32_t pump = model.AddMaterial(PlainTexture(CrockeryColour(random)), 0.3f);
+  const double top = b.height + Mm(random, 12, 30), reach = b.radius * 0.8 + 10 * kMm;
+  model.mesh.Append(Sweep({{0, 0, b.height}, {0, 0, top}}, {1, 0, 0}, 4 * kMm, 4 * kMm, pump));
+  model.mesh.Append(Sweep({{0, 0, top}, {reach * 0.7, 0, top + 2 * kMm}, {reach, 0, top - 4 * kMm}},
+                          {0, 1, 0}, 7 * kMm, 5 * kMm, pump));
+}
+
+/// A grip through the body's side, as jugs have.
+void AddGrip(Model& model, Random& random, const BottleShape& b) {
+  const uint32_t plastic = model.AddMaterial(PlainTexture(CrockeryColour(random)), 0.3f);
+  const double low = b.height * random.Uniform(0.4, 0.55),
+               high = b.height * random.Uniform(0.75, 0.86);
+  const double reach = b.radius + Mm(random, 12, 26);
+  model.mesh.Append(Sweep({{b.radius * 0.8, 0, low},
+                           {reach, 0, low + (high - low) * 0.3},
+                           {reach * 0.95, 0, low + (high - low) * 0.8},
+                           {b.neck * 0.8, 0, high}},
+                          {0, 1, 0}, 9 * kMm, 7 * kMm, plastic));
+}
+
+}  // namespace
+
 Model MakeBottle(Random& random) {
   Model model;
-  const bool elliptic = random.Chance(0.5);
-  const double height = Mm(random, 130, 290);
-  const double radius = std::min(Mm(random, 22, 58), height * 0.32);
-  const double neck = std::min(Mm(random, 11, 20), radius * 0.7);
-  const double cap_height = Mm(random, 10, 32);
-  const double shoulder = height * random.Uniform(0.5, 0.78);
-  const double neck_start =
-      std::min(height - cap_height - 4 * kMm, shoulder + radius * random.Uniform(0.5, 1.4));
-  const double cap = neck * random.Uniform(1.02, 1.25);
-  const uint32_t body = model.AddMaterial(
-      random.Chance(0.75) ? Wrap(random, radius, height) : PlainTexture(PackagingColour(random)),
-      0.4f);
+  const double kind = random.Unit();
+  const BottleShape b = kind < 0.45  ? SlenderBottle(random)
+                        : kind < 0.8 ? FlatBottle(random)
+                                     : SquareBottle(random);
+  const uint32_t body =
+      model.AddMaterial(random.Chance(0.75) ? Wrap(random, b.radius, b.height)
+                                            : PlainTexture(PackagingColour(random)),
+                        0.4f);
   const uint32_t lid = model.AddMaterial(PlainTexture(PackagingColour(random)), 0.3f);
-  std::vector<OutlinePoint> outline = {{0, 0, body}, {radius * 0.9, 0, body}};
-  AddCurve(outline, radius, 6 * kMm, false, 3, body);
+  const double base = b.radius * std::min(1.0, 1 / b.taper);
+  const double top = b.radius * std::min(1.0, b.taper);
+  std::vector<OutlinePoint> outline = {{0, 0, body}, {base * 0.9, 0, body}};
+  AddCurve(outline, base, 6 * kMm, false, 3, body);
   if (random.Chance(0.25)) {  // a waist
-    outline.push_back({radius, shoulder * 0.25, body});
+    outline.push_back({base, b.shoulder * 0.25, body});
     outline.push_back(
-        {radius * random.Uniform(0.82, 0.95), shoulder * random.Uniform(0.45, 0.65), body});
+        {base * random.Uniform(0.82, 0.95), b.shoulder * random.Uniform(0.45, 0.65), body});
   }
-  outline.push_back({radius, shoulder, body});
-  AddCurve(outline, neck, neck_start, random.Chance(0.7), 8, body);
-  outline.push_back({neck, height - cap_height, lid});
-  outline.push_back({cap, height - cap_height, lid});
-  outline.push_back({cap, height - 2 * kMm, lid});
-  outline.push_back({cap * 0.92, height, lid});
-  outline.push_back({0, height, lid});
-  model.mesh = Turn(outline, 1, elliptic && random.Chance(0.4) ? random.Uniform(2.2, 4) : 2);
-  if (elliptic) {  // the body is flattened, the neck stays round
-    const double flatness = random.Uniform(0.5, 0.88);
-    for (auto& p : model.mesh.positions) {
-      const double t =
-          std::clamp((p.z() - shoulder) / std::max(1e-3, neck_start - shoulder), 0.0, 1.0);
-      p.y() *= static_cast<float>(flatness + (std::max(flatness, 0.9) - flatness) * t);
-    }
+  outline.push_back({top, b.shoulder, body});
+  AddCurve(outline, b.neck, b.neck_start, random.Chance(0.7), 8, body);
+  outline.push_back({b.neck, b.height - b.cap_height, lid});
+  outline.push_back({b.cap, b.height - b.cap_height, lid});
+  const double tip = random.Chance(0.2) ? random.Uniform(0.2, 0.7) : 0.95;  // a spout
+  outline.push_back(
+      {b.cap * std::max(tip, 0.92), b.height - b.cap_height * (tip < 0.9 ? 0.6 : 0.1), lid});
+  outline.push_back({b.cap * tip * 0.95, b.height, lid});
+  outline.push_back({0, b.height, lid});
+  model.mesh = Turn(outline, 1, b.exponent);
+  for (auto& p : model.mesh.positions) {  // the body is flattened, the neck stays rounder
+    const double t =
+        std::clamp((p.z() - b.shoulder) / std::max(1e-3, b.neck_start - b.shoulder), 0.0, 1.0);
+    p.y() *=
+        static_cast<float>(b.flatness + (std::max(b.flatness, b.neck_flatness) - b.flatness) * t);
   }
-  if (random.Chance(0.12)) {  // a dispenser
-    const uint32_t pump = model.AddMaterial(PlainTexture(CrockeryColour(random)), 0.3f);
-    model.mesh.Append(
-        Sweep({{0, 0, height}, {0, 0, height + 22 * kMm}}, {1, 0, 0}, 4 * kMm, 4 * kMm, pump));
-    model.mesh.Append(Sweep({{0, 0, height + 22 * kMm},
-                             {radius * 0.6, 0, height + 24 * kMm},
-                             {radius * 0.8 + 10 * kMm, 0, height + 18 * kMm}},
-                            {0, 1, 0}, 7 * kMm, 5 * kMm, pump));
-  }
+  if (kind >= 0.45 && random.Chance(0.15)) AddDispenser(model, random, b);
+  if (kind >= 0.8 && random.Chance(0.4)) AddGrip(model, random, b);
   model.lying = 0.22;
+  model.upside_down = kind >= 0.45 && kind < 0.8 && b.cap > b.radius * 0.45 ? 0.3 : 0;
   return model;
 }
 
 Model MakeCan(Random& random) {
   Model model;
-  constexpr double kSizes[4][4] = {
-      {32, 33.5, 112, 125}, {25.5, 29.5, 125, 160}, {32, 34.5, 145, 175}, {26, 30, 85, 110}};
-  const auto& size = kSizes[random.Int(0, 3)];
+  constexpr double kSizes[5][4] = {{32, 33.5, 112, 125},
+                                   {32, 33.5, 112, 125},
+                                   {25.5, 29.5, 125, 160},
+                                   {32, 34.5, 145, 175},
+                                   {26, 30, 85, 110}};
+  const auto& size = kSizes[random.Int(0, 4)];
   const double radius = Mm(random, size[0], size[1]), height = Mm(random, size[2], size[3]);
   const uint32_t print = model.AddMaterial(Wrap(random, radius, height), 0.5f, 0.005f);
   const uint32_t metal =

@@ -119,10 +119,25 @@ std::optional<Neighbour> MakeNeighbour(const Model& model, const Pose& X_WO, Ran
   return neighbour;
 }
 
-std::optional<ObjectView> TryRender(const Model& model, Random& random) {
+/// The table's normal as it is found in practice: mostly to a degree or two, now and then badly,
+/// and sometimes not at all.
+std::optional<Eigen::Vector3d> MeasuredUp(const Stage& stage, Random& random) {
+  constexpr double kDegree = 3.14159265358979 / 180;
+  const double choice = random.Unit();
+  if (choice < 0.1) return std::nullopt;
+  const double sigma = (choice < 0.25 ? 6 : 1.2) * kDegree;
+  const Eigen::Vector3d stray(random.Normal(), random.Normal(), random.Normal());
+  return (stage.table_C.normal + sigma * stray).normalized();
+}
+
+std::optional<ObjectView> TryRender(const Model& model, bool any_camera, Random& random) {
   constexpr double kLeastVisible = 0.4;
   constexpr int kFewestPixels = 250;
-  const Stage stage = MakeStage(random, {28, 52, 0.6, 1.25});
+  const CameraRange kinect{28, 52, 0.6, 1.25}, any{18, 62, 0.5, 1.5};
+  Stage stage = MakeStage(random, any_camera ? any : kinect);
+  DepthCamera camera{stage.intrinsics, RandomKinectNoise(random)};
+  if (any_camera) camera = RandomDepthCamera(random);
+  stage.intrinsics = camera.intrinsics;
   const auto X_WO = PutInView(stage, model, random);
   if (!X_WO) return std::nullopt;
   const Window window = Grown(*ImageWindow(stage, model, *X_WO, kMargin_px), 6);
@@ -140,7 +155,7 @@ std::optional<ObjectView> TryRender(const Model& model, Random& random) {
   }
   const Raycaster raycaster(instances, stage.X_WC);
   const Rendering rendering = raycaster.Render(stage.intrinsics, window, stage.lighting, random);
-  const KinectDepth depth = SimulateDepth(rendering, RandomKinectNoise(random), random);
+  const KinectDepth depth = SimulateDepth(rendering, camera.noise, random);
   const auto mask = StrayMask(stage, window, depth, random);
   if (std::count(mask.begin(), mask.end(), 255) < kFewestPixels) return std::nullopt;
   ObjectView view;
@@ -149,17 +164,17 @@ std::optional<ObjectView> TryRender(const Model& model, Random& random) {
   view.depth_m = Cut(depth.depth_m, window, view.crop);
   view.colour = Cut(SimulateColour(rendering, random), window, view.crop);
   view.mask = Cut(mask, window, view.crop);
-  view.up_C = stage.table_C.normal;
+  view.up_C = MeasuredUp(stage, random);
   view.visible_share = visible;
   return view;
 }
 
 }  // namespace
 
-ObjectView RenderObjectView(const Model& model, Random& random) {
+ObjectView RenderObjectView(const Model& model, bool any_camera, Random& random) {
   constexpr int kAttempts = 1000;
   for (int i = 0; i < kAttempts; ++i) {
-    if (auto view = TryRender(model, random)) return *std::move(view);
+    if (auto view = TryRender(model, any_camera, random)) return *std::move(view);
   }
   throw std::logic_error("a " + model.category + " fits no view");
 }

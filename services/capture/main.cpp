@@ -55,7 +55,8 @@ int main(int argc, char** argv) {
     if (app_options.check_config) return {};
     if (options.render) return WriteFrameSet(options.out, options.seed, options.frames);
     if (options.render_objects)
-      return WriteObjectSet(options.out, options.seed, options.per_category);
+      return WriteObjectSet(options.out, {options.seed, options.per_category, options.views,
+                                          options.sensor == "any", options.meshes});
     if (!options.truth.empty()) return WriteTruth(options);
     return Serve(options, app_options);
   });

@@ -1,16 +1,20 @@
 #include "services/capture/object_set_writer.h"
 
 #include <array>
+#include <atomic>
 #include <cstdio>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 #include "services/base/cloud_file.h"
 #include "services/capture/embedded_object_view.h"
 #include "services/capture/image_files.h"
+#include "services/capture/mesh_files.h"
 
 namespace beckon::capture {
 namespace {
 
-constexpr int kViews = 2;
 constexpr char kColumns[] =
     "file,category,instance,view,points,kind,units,frame,fx,fy,cx,cy,crop_x,crop_y,crop_w,crop_h,"
     "rgb_crop,depth_crop_mm,mask_crop,visible_share,product,up_x,up_y,up_z\n";
@@ -39,12 +43,18 @@ std::string ManifestLine(const ObjectView& view, const std::string& stem,
   std::snprintf(numbers.data(), numbers.size(), "%.1f,%.1f,%.1f,%.1f,%d,%d,%d,%d", k.fx, k.fy, k.cx,
                 k.cy, view.crop.u0, view.crop.v0, view.crop.width, view.crop.height);
   std::array<char, 96> last{};
-  std::snprintf(last.data(), last.size(), ",%.3f,%s,%.5f,%.5f,%.5f\n", view.visible_share,
-                instance.c_str(), view.up_C.x(), view.up_C.y(), view.up_C.z());
+  std::snprintf(last.data(), last.size(), ",%.3f,", view.visible_share);
+  std::array<char, 64> up{};
+  if (view.up_C) {
+    std::snprintf(up.data(), up.size(), "%.5f,%.5f,%.5f", view.up_C->x(), view.up_C->y(),
+                  view.up_C->z());
+  } else {
+    std::snprintf(up.data(), up.size(), ",,");
+  }
   return stem + ".pcd," + category + "," + instance + ",view" + std::to_string(view_number) + "," +
          std::to_string(points) + ",rendered,m,\"camera optical (x right, y down, z forward)\"," +
          numbers.data() + "," + stem + "_rgb.png," + stem + "_depth.png," + stem + "_mask.png" +
-         last.data();
+         last.data() + instance + "," + up.data() + "\n";
 }
 
 Status WriteView(const std::string& path, const ObjectView& view, const Cloud& cloud) {
@@ -55,28 +65,94 @@ Status WriteView(const std::string& path, const ObjectView& view, const Cloud& c
   return Write16BitPng(path + "_depth.png", w, h, Millimetres(view.depth_m));
 }
 
-}  // namespace
+/// An object to render.
+struct Job {
+  std::string category;
+  std::string instance;
+  uint64_t seed = 0;
+  std::function<Result<Model>(Random&)> make;
+};
 
-Status WriteObjectSet(const std::string& folder, uint64_t seed, int per_category) {
-  std::string manifest = kColumns;
-  for (size_t c = 0; c < kCategories.size(); ++c) {
-    const std::string category = kCategories[c];
-    if (auto status = MakeFolder(folder + "/" + category); !status) return status;
-    for (int i = 0; i < per_category; ++i) {
-      Random random(Random::Mix(seed, c * 1'000'000 + static_cast<uint64_t>(i)));
-      const Model model = MakeModel(c, random);
-      std::array<char, 16> number{};
-      std::snprintf(number.data(), number.size(), "%04d", i);
-      const std::string instance = category + "_" + number.data();
-      for (int v = 0; v < kViews; ++v) {
-        const ObjectView view = RenderObjectView(model, random);
-        const Cloud cloud = ObjectCloud(view);
-        const std::string stem = category + "/" + instance + "_view" + std::to_string(v);
-        if (auto status = WriteView(folder + "/" + stem, view, cloud); !status) return status;
-        manifest += ManifestLine(view, stem, category, instance, v, cloud.points.size());
-      }
+std::string Numbered(const std::string& category, int number) {
+  std::array<char, 16> digits{};
+  std::snprintf(digits.data(), digits.size(), "_%04d", number);
+  return category + digits.data();
+}
+
+Result<std::vector<Job>> PlanJobs(const ObjectSetPlan& plan) {
+  std::vector<Job> jobs;
+  for (size_t c = 0; c <= kCategories.size(); ++c) {
+    const bool known = c < kCategories.size();
+    const std::string category = known ? kCategories[c] : kUnknown;
+    const int count = known ? plan.per_category : 2 * plan.per_category;
+    for (int i = 0; i < count; ++i) {
+      jobs.push_back({category, Numbered(category, i),
+                      Random::Mix(plan.seed, c * 1'000'000 + static_cast<uint64_t>(i)),
+                      [c, known](Random& random) -> Result<Model> {
+                        return known ? MakeModel(c, random) : MakeUnknownModel(random);
+                      }});
     }
   }
+  if (plan.meshes.empty()) return jobs;
+  const auto meshes = ListMeshes(plan.meshes);
+  if (!meshes) return meshes.error();
+  for (size_t i = 0; i < meshes->size(); ++i) {
+    const MeshRecord& mesh = (*meshes)[i];
+    jobs.push_back({mesh.category, mesh.instance, Random::Mix(plan.seed, 100'000'000 + i),
+                    [mesh](Random& random) { return ReadMesh(mesh, random); }});
+  }
+  return jobs;
+}
+
+/// Renders and writes all views of one object; its lines of the manifest.
+Result<std::string> WriteObject(const std::string& folder, const Job& job,
+                                const ObjectSetPlan& plan) {
+  Random random(job.seed);
+  const Result<Model> model = job.make(random);
+  if (!model) return model.error();
+  std::string lines;
+  for (int v = 0; v < plan.views; ++v) {
+    const ObjectView view = RenderObjectView(*model, plan.any_camera, random);
+    const Cloud cloud = ObjectCloud(view);
+    const std::string stem = job.category + "/" + job.instance + "_view" + std::to_string(v);
+    if (auto status = WriteView(folder + "/" + stem, view, cloud); !status) return status.error();
+    lines += ManifestLine(view, stem, job.category, job.instance, v, cloud.points.size());
+  }
+  return lines;
+}
+
+}  // namespace
+
+Status WriteObjectSet(const std::string& folder, const ObjectSetPlan& plan,
+                      const std::function<void(size_t, size_t)>& progress) {
+  const auto jobs = PlanJobs(plan);
+  if (!jobs) return jobs.error();
+  for (const Job& job : *jobs) {
+    if (auto status = MakeFolder(folder + "/" + job.category); !status) return status;
+  }
+  std::vector<std::string> lines(jobs->size());
+  std::atomic<size_t> next = 0;
+  std::mutex mutex;
+  std::optional<Error> failure;
+  size_t done = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < jobs->size(); i = next++) {
+      Result<std::string> written = WriteObject(folder, (*jobs)[i], plan);
+      const std::lock_guard lock(mutex);
+      if (!written) failure = written.error();
+      if (failure) return;
+      lines[i] = std::move(*written);
+      if (progress) progress(++done, jobs->size());
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) threads.emplace_back(work);
+    work();
+  }
+  if (failure) return *failure;
+  std::string manifest = kColumns;
+  for (const std::string& line : lines) manifest += line;
   return WriteText(folder + "/manifest.csv", manifest);
 }
 

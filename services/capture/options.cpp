@@ -39,6 +39,17 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--per-category", options.per_category,
                  "How many objects --render-objects makes of each category (default 90)")
       ->type_name("N");
+  app.add_option(
+         "--sensor", options.sensor,
+         "Render as a Kinect would see it, or as any of several depth cameras (default any)")
+      ->check(CLI::IsMember({"kinect", "any"}));
+  app.add_option("--views", options.views, "How many views of each object (default 2)")
+      ->type_name("N");
+  app.add_option(
+         "--meshes", options.meshes,
+         "--render-objects renders these too: <Category>/*.obj (ply, stl, dae, glb), in metres, "
+         "z up")
+      ->type_name("FOLDER");
   app.add_option("--out", options.out, "Folder for what is rendered")->type_name("FOLDER");
 }
 
@@ -83,8 +94,15 @@ Status Check(const CLI::App& app, const Options& options) {
     return Error{"--out goes with --render or --render-objects"};
   if (options.frames < 1 || options.frames > kMostFrames)
     return Error{"--frames: expected 1 .. 100000"};
-  if (options.per_category < 1 || options.per_category > kMostFrames)
-    return Error{"--per-category: expected 1 .. 100000"};
+  const int fewest = options.meshes.empty() ? 1 : 0;
+  if (options.per_category < fewest || options.per_category > kMostFrames) {
+    return Error{"--per-category: expected 1 .. 100000, or 0 with --meshes"};
+  }
+  if (options.views < 1 || options.views > kMostFrames)
+    return Error{"--views: expected 1 .. 100000"};
+  if (!options.render_objects &&
+      (!options.meshes.empty() || Given(app, "--views") || Given(app, "--sensor")))
+    return Error{"--meshes, --views and --sensor go with --render-objects"};
   if (!options.input.empty() && Given(app, "--embedded-seed")) {
     return Error{"--embedded-seed goes without --input"};
   }

@@ -28,6 +28,9 @@ struct Options {
   uint64_t seed = 1;
   int frames = 1;
   int per_category = 90;
+  int views = 2;               // of each object
+  std::string sensor = "any";  // or "kinect"
+  std::string meshes;          // folder of a lab's own meshes
   std::string out;
 };
 

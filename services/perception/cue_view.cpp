@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/perception/cue_up.h"
+
 namespace beckon::perception {
 namespace {
 
@@ -54,10 +56,13 @@ std::vector<Eigen::Vector3f> Unproject(const ObjectView& view) {
 }
 
 /// Rows of the result: right, away and up, in C.
-Eigen::Matrix3f TableAxes(const std::optional<Plane>& table_C) {
+Eigen::Matrix3f TableAxes(const ObjectView& view) {
   Eigen::Vector3f up(0, -std::cos(kAssumedPitch_rad), -std::sin(kAssumedPitch_rad));
+  const auto& table_C = view.table_C;
   if (table_C && table_C->normal.allFinite() && table_C->normal.norm() > 0.5) {
     up = table_C->normal.normalized().cast<float>();
+  } else if (const auto estimate = EstimateUp(view)) {
+    up = *estimate;
   }
   Eigen::Vector3f away = Eigen::Vector3f::UnitZ() - up * up.z();
   if (away.norm() < 0.1F) away = -Eigen::Vector3f::UnitY() + up * up.y();  // looking straight down
@@ -156,7 +161,7 @@ int CountPoints(const ObjectView& view) {
 CueView MakeCueView(const ObjectView& view) {
   CueView out{.object = view};
   FindMask(view, out);
-  out.R_TC = TableAxes(view.table_C);
+  out.R_TC = TableAxes(view);
   std::vector<Eigen::Vector3f> points = Unproject(view);
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (Eigen::Vector3f& p : points) {

@@ -10,8 +10,9 @@
 
 namespace beckon::perception {
 
-/// Frame T: z up (the table's normal), y away from the camera along the table, x right; its origin
-/// is the middle of the visible points, at the height of the lowest of them.
+/// Frame T: z up (the table's normal; where it is not known what EstimateUp finds, else that of a
+/// camera pitched 38 degrees down), y away from the camera along the table, x right; its origin is
+/// the middle of the visible points, at the height of the lowest of them.
 struct CueView {
   static constexpr int kMaxPoints = 1000;
   static constexpr float kVoxel_m = 0.005F;  // larger where more than kMaxPoints would remain

@@ -107,8 +107,8 @@ TEST_F(TruthTest, LabelledCloudsHaveTheirCategoriesBesideThem) {
 
 TEST_F(TruthTest, ObjectSetsAreWrittenAlikeForTheSameSeed) {
   const std::string a = Path("a"), b = Path("b");
-  ASSERT_TRUE(WriteObjectSet(a, 3, 1).ok());
-  ASSERT_TRUE(WriteObjectSet(b, 3, 1).ok());
+  ASSERT_TRUE(WriteObjectSet(a, {3, 1}).ok());
+  ASSERT_TRUE(WriteObjectSet(b, {3, 1}).ok());
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(a)) {
     if (!entry.is_regular_file()) continue;
