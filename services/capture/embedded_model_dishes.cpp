@@ -163,7 +163,7 @@ Model MakeTin(Random& random) {
     radius = Mm(random, 42, 115);
     flatness = random.Uniform(0.55, 1);
     height = Mm(random, 35, 150);
-    exponent = random.Uniform(5, 14);
+    exponent = random.Uniform(3.5, 14);
   } else if (kind < 0.5) {  // food tin, squat to tall
     radius = Mm(random, 31, 52);
     height = radius * random.Uniform(1.0, 2.9);
@@ -176,6 +176,7 @@ Model MakeTin(Random& random) {
     height = radius * random.Uniform(2.2, 3.6);
   }
   const bool lidded = rectangular || kind >= 0.5;
+  const bool emptied = random.Chance(lidded ? 0.08 : 0.15);
   const uint32_t print = model.AddMaterial(
       PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f,
       0.005f);
@@ -207,6 +208,16 @@ Model MakeTin(Random& random) {
     outline.push_back({radius - 2 * kMm, height - 3.5 * kMm, metal});
     outline.push_back({0, height - 3.5 * kMm, metal});
   }
+  if (emptied) {  // the lid is off: one looks inside
+    outline.resize(6);
+    outline.push_back({radius, height - 3 * kMm, metal});
+    outline.push_back({radius + bead, height - 3 * kMm, metal});
+    outline.push_back({radius + bead, height, metal});
+    outline.push_back({radius - 1.5 * kMm, height, metal});
+    const double filled = random.Chance(0.4) ? height * random.Uniform(0.3, 0.85) : 3 * kMm;
+    outline.push_back({radius - 1.5 * kMm, filled, metal});
+    outline.push_back({0, filled, metal});
+  }
   model.mesh = Turn(outline, flatness, exponent);
   model.lying = height > 1.6 * radius ? 0.12 : 0;
   model.upside_down = 0.08;
@@ -215,9 +226,11 @@ Model MakeTin(Random& random) {
 
 Model MakeTub(Random& random) {
   Model model;
-  const double radius = Mm(random, 45, 125);
-  const double height = std::min(Mm(random, 40, 140), radius * random.Uniform(0.7, 1.9));
-  const bool round = random.Chance(0.6), lidded = random.Chance(0.75);
+  const bool canister = random.Chance(0.15);  // sweets, chewing gum, spreads
+  const double radius = canister ? Mm(random, 30, 50) : Mm(random, 42, 125);
+  const double height = canister ? radius * random.Uniform(1.6, 2.9)
+                                 : std::min(Mm(random, 40, 140), radius * random.Uniform(0.7, 1.9));
+  const bool round = random.Chance(0.6), lidded = canister || random.Chance(0.75);
   const double exponent = round ? 2 : random.Uniform(4, 9);
   const double flatness = round ? 1 : random.Uniform(0.6, 1);
   const double base = radius * random.Uniform(0.72, 0.95);
@@ -261,6 +274,7 @@ Model MakeTub(Random& random) {
                {0, 4 * kMm, lid}};
   }
   model.mesh = Turn(outline, flatness, exponent);
+  if (canister && random.Chance(0.5)) Bulge(model.mesh, random.Uniform(-0.2, 0.12), height);
   if (random.Chance(0.15)) {  // two grips
     for (int side : {-1, 1}) {
       const double r = radius - 4 * kMm, z = height - 6 * kMm;

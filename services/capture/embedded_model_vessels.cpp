@@ -76,6 +76,39 @@ BottleShape FlatBottle(Random& random) {
   return b;
 }
 
+/// Shampoo, lotion: no neck, the cap as wide as the body or nearly.
+BottleShape NecklessBottle(Random& random) {
+  BottleShape b;
+  b.height = Mm(random, 110, 250);
+  b.radius = std::min(Mm(random, 20, 45), b.height * 0.27);
+  b.flatness = random.Uniform(0.5, 1);
+  b.exponent = random.Chance(0.4) ? random.Uniform(2.2, 3.5) : 2;
+  b.cap_height = b.height * random.Uniform(0.08, 0.28);
+  b.cap = b.radius * random.Uniform(0.6, 1);
+  b.neck = b.cap * random.Uniform(0.9, 1);
+  b.neck_start = b.height - b.cap_height - 1 * kMm;
+  b.shoulder = b.neck_start - b.radius * random.Uniform(0.1, 1.5);
+  b.taper = random.Uniform(0.8, 1.15);
+  b.neck_flatness = b.flatness * random.Uniform(1, 1.2);
+  return b;
+}
+
+/// Dressing, honey, flasks: a belly, then a long neck or a wide cap.
+BottleShape BelliedBottle(Random& random) {
+  BottleShape b;
+  b.height = Mm(random, 110, 240);
+  b.radius = std::min(Mm(random, 25, 58), b.height * 0.3);
+  b.cap = b.radius * random.Uniform(0.35, 0.7);
+  b.neck = b.cap * random.Uniform(0.75, 0.98);
+  b.cap_height = Mm(random, 12, 40);
+  b.shoulder = b.height * random.Uniform(0.15, 0.4);
+  b.neck_start = std::min(b.height - b.cap_height - 2 * kMm, b.height * random.Uniform(0.55, 0.8));
+  b.flatness = random.Chance(0.5) ? random.Uniform(0.6, 1) : 1;
+  b.taper = random.Uniform(0.95, 1.25);
+  b.neck_flatness = random.Uniform(0.9, 1);
+  return b;
+}
+
 /// Jugs, milk and bleach: squarish, with a short neck.
 BottleShape SquareBottle(Random& random) {
   BottleShape b;
@@ -118,9 +151,11 @@ void AddGrip(Model& model, Random& random, const BottleShape& b) {
 Model MakeBottle(Random& random) {
   Model model;
   const double kind = random.Unit();
-  const BottleShape b = kind < 0.45  ? SlenderBottle(random)
-                        : kind < 0.8 ? FlatBottle(random)
-                                     : SquareBottle(random);
+  const BottleShape b = kind < 0.34   ? SlenderBottle(random)
+                        : kind < 0.58 ? FlatBottle(random)
+                        : kind < 0.72 ? NecklessBottle(random)
+                        : kind < 0.84 ? BelliedBottle(random)
+                                      : SquareBottle(random);
   const uint32_t body =
       model.AddMaterial(random.Chance(0.75) ? Wrap(random, b.radius, b.height)
                                             : PlainTexture(PackagingColour(random)),
@@ -151,10 +186,10 @@ Model MakeBottle(Random& random) {
     p.y() *=
         static_cast<float>(b.flatness + (std::max(b.flatness, b.neck_flatness) - b.flatness) * t);
   }
-  if (kind >= 0.45 && random.Chance(0.15)) AddDispenser(model, random, b);
-  if (kind >= 0.8 && random.Chance(0.4)) AddGrip(model, random, b);
+  if (kind >= 0.34 && random.Chance(0.12)) AddDispenser(model, random, b);
+  if (kind >= 0.84 && random.Chance(0.4)) AddGrip(model, random, b);
   model.lying = 0.22;
-  model.upside_down = kind >= 0.45 && kind < 0.8 && b.cap > b.radius * 0.45 ? 0.3 : 0;
+  model.upside_down = kind >= 0.34 && kind < 0.72 && b.cap > b.radius * 0.45 ? 0.25 : 0;
   return model;
 }
 

@@ -2,6 +2,7 @@
 #include "services/perception/cue_fpfh.h"
 #include "services/perception/cue_hog.h"
 #include "services/perception/cue_interface.h"
+#include "services/perception/cue_own_frame.h"
 #include "services/perception/cue_shape_statistics.h"
 #include "services/perception/cue_sift.h"
 
@@ -13,6 +14,7 @@ std::vector<std::unique_ptr<const Cue>> MakeCues() {
   cues.push_back(std::make_unique<HogCue>());
   cues.push_back(std::make_unique<FpfhCue>());
   cues.push_back(std::make_unique<ShapeStatisticsCue>());
+  cues.push_back(std::make_unique<OwnFrameCue>());
   cues.push_back(std::make_unique<DepthHogCue>());
   return cues;
 }
