@@ -166,7 +166,7 @@ KinectNoise RandomKinectNoise(Random& random) {
   noise.coarse_sigma_px *= strength * random.Uniform(0.85, 1.15);
   noise.coarse_correlation_u_px *= random.Uniform(0.8, 1.25);
   noise.coarse_correlation_v_px *= random.Uniform(0.8, 1.25);
-  noise.smoothing_px = random.Uniform(0.7, 1.8);
+  noise.smoothing_px = random.Uniform(1.7, 2.8);
   noise.ragged_px = random.Uniform(0.5, 1.2);
   noise.edge_dropout = random.Uniform(0.0, 0.12);
   noise.shadow_dropout = random.Uniform(0.1, 0.7);

@@ -20,7 +20,8 @@ struct KinectNoise {
   double coarse_correlation_u_px = 3.2;
   double coarse_correlation_v_px = 1.5;
   double step_px = 0.125;
-  double smoothing_px = 1.0;    // of the matching window, within a surface
+  double smoothing_px =
+      2.2;  // of the matching window, within a surface: as creases of real boxes are rounded
   double ragged_px = 0.7;       // how far outlines stray
   double edge_dropout = 0.06;   // share of outline pixels without depth
   double shadow_dropout = 0.7;  // share of the projector's shadow without depth

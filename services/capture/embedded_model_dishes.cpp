@@ -164,18 +164,18 @@ Model MakeTin(Random& random) {
     flatness = random.Uniform(0.55, 1);
     height = Mm(random, 35, 150);
     exponent = random.Uniform(3.5, 14);
-  } else if (kind < 0.5) {  // food tin, squat to tall
+  } else if (kind < 0.45) {  // food tin, squat to tall
     radius = Mm(random, 31, 52);
     height = radius * random.Uniform(1.0, 2.9);
-  } else if (kind < 0.75) {  // flat: biscuits, fish, polish
-    radius = Mm(random, 38, 100);
+  } else if (kind < 0.78) {  // flat: biscuits, fish, polish
+    radius = random.Chance(0.5) ? Mm(random, 38, 70) : Mm(random, 70, 110);
     height = std::max(18 * kMm, radius * random.Uniform(0.35, 0.9));
     flatness = random.Chance(0.2) ? random.Uniform(0.6, 0.9) : 1;
   } else {  // tall with a press-in lid: coffee, cocoa
     radius = Mm(random, 34, 52);
     height = radius * random.Uniform(2.2, 3.6);
   }
-  const bool lidded = rectangular || kind >= 0.5;
+  const bool lidded = rectangular || kind >= 0.45;
   const bool emptied = random.Chance(lidded ? 0.08 : 0.15);
   const uint32_t print = model.AddMaterial(
       PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f,
@@ -188,12 +188,19 @@ Model MakeTin(Random& random) {
       {0, 2 * kMm, metal},       {radius - 2 * kMm, 2 * kMm, metal}, {radius - 2 * kMm, 0, metal},
       {radius + bead, 0, metal}, {radius + bead, 3 * kMm, metal},    {radius, 3 * kMm, print}};
   if (lidded) {
-    const double lid = std::min(height * random.Uniform(0.12, 0.4), 30 * kMm);
+    const double lid = std::min(height * random.Uniform(0.12, 0.45), 35 * kMm);
     outline.push_back({radius, height - lid, print});
     outline.push_back({radius + bead, height - lid, print});
     outline.push_back({radius + bead, height - 2 * kMm, metal});
     AddCurve(outline, radius - 2 * kMm, height, true, 3, metal);
-    outline.push_back({0, height + (random.Chance(0.4) ? 2 * kMm : 0), metal});
+    if (random.Chance(0.35)) {  // embossed, or a shallow dome
+      const double edge = radius * random.Uniform(0.6, 0.92), rise = Mm(random, -2.5, 5);
+      outline.push_back({edge, height, metal});
+      outline.push_back({edge - 2 * kMm, height + rise, metal});
+      outline.push_back({0, height + rise, metal});
+    } else {
+      outline.push_back({0, height + (random.Chance(0.4) ? 2 * kMm : 0), metal});
+    }
   } else {
     if (random.Chance(0.4)) {  // ribs
       for (double z = height * 0.3; z < height * 0.7; z += 8 * kMm) {
