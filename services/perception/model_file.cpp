@@ -17,6 +17,7 @@ constexpr char kMagic[] = {'B', 'E', 'C', 'K', 'O', 'N', 'C', 'M'};
 constexpr size_t kHeader = sizeof(kMagic) + 4 + 8 + 4;  // version, length, CRC
 constexpr uint32_t kMostCategories = 64;
 constexpr uint32_t kMostCues = 32;
+constexpr uint32_t kMostDeciders = 64;
 
 uint32_t Crc(const uint8_t* data, size_t size) {
   return static_cast<uint32_t>(crc32(0, data, static_cast<uInt>(size)));
@@ -59,22 +60,51 @@ CueModel UnpackCue(ByteReader in, size_t classes, bool& ok) {
   return cue;
 }
 
+Decider UnpackDecider(ByteReader in, size_t classes, bool& ok) {
+  Decider decider;
+  const uint32_t cues = std::min(in.Read<uint32_t>(), kMostCues);
+  for (uint32_t i = 0; i < cues; ++i) decider.cues.push_back(in.Read<uint32_t>());
+  decider.blend = in.Read<uint8_t>() != 0;
+  decider.temperature = in.Read<float>();
+  decider.threshold = in.Read<float>();
+  if (in.Read<uint8_t>() != 0) {
+    decider.svm = UnpackSvm(in.ReadSection("SVM "), classes, ok);
+  }
+  ok = ok && in.done();
+  return decider;
+}
+
+ByteWriter Pack(const Decider& decider) {
+  ByteWriter out;
+  out.Write(static_cast<uint32_t>(decider.cues.size()));
+  for (const uint32_t cue : decider.cues) out.Write(cue);
+  out.Write(static_cast<uint8_t>(decider.blend));
+  out.Write(decider.temperature);
+  out.Write(decider.threshold);
+  const bool learnt = decider.svm.classes() > 0;
+  out.Write(static_cast<uint8_t>(learnt));
+  if (learnt) out.WriteSection("SVM ", Pack(decider.svm));
+  return out;
+}
+
 /// False where the sections do not follow the format.
 bool Unpack(ByteReader in, Model& model) {
   bool ok = true;
   ByteReader head = in.ReadSection("HEAD");
   const uint32_t categories = std::min(head.Read<uint32_t>(), kMostCategories);
   for (uint32_t i = 0; i < categories; ++i) model.categories.push_back(head.ReadText());
-  model.temperature = head.Read<float>();
-  model.threshold = head.Read<float>();
+  model.unknown_prior = head.Read<float>();
   model.seed = head.Read<uint64_t>();
   model.description = head.ReadText();
   const uint32_t cues = std::min(head.Read<uint32_t>(), kMostCues);
+  const uint32_t deciders = std::min(head.Read<uint32_t>(), kMostDeciders);
   ok = head.done();
   for (uint32_t i = 0; ok && i < cues; ++i) {
     model.cues.push_back(UnpackCue(in.ReadSection("CUE "), categories, ok));
   }
-  if (ok) model.decider = UnpackSvm(in.ReadSection("DECI"), categories, ok);
+  for (uint32_t i = 0; ok && i < deciders; ++i) {
+    model.deciders.push_back(UnpackDecider(in.ReadSection("DECI"), categories, ok));
+  }
   return ok && in.done();
 }
 
@@ -89,11 +119,11 @@ std::vector<uint8_t> SerialiseModel(const Model& model) {
   ByteWriter head;
   head.Write(static_cast<uint32_t>(model.categories.size()));
   for (const std::string& category : model.categories) head.Write(category);
-  head.Write(model.temperature);
-  head.Write(model.threshold);
+  head.Write(model.unknown_prior);
   head.Write(model.seed);
   head.Write(model.description);
   head.Write(static_cast<uint32_t>(model.cues.size()));
+  head.Write(static_cast<uint32_t>(model.deciders.size()));
   ByteWriter body;
   body.WriteSection("HEAD", head);
   for (const CueModel& cue : model.cues) {
@@ -104,7 +134,7 @@ std::vector<uint8_t> SerialiseModel(const Model& model) {
     part.WriteSection("SVM ", Pack(cue.classifier));
     body.WriteSection("CUE ", part);
   }
-  body.WriteSection("DECI", Pack(model.decider));
+  for (const Decider& decider : model.deciders) body.WriteSection("DECI", Pack(decider));
 
   ByteWriter file;
   for (const char letter : kMagic) file.Write(letter);
@@ -144,7 +174,7 @@ Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& n
     return Refuse(name, "unusable: " + status.error().message);
   }
   for (CueModel& cue : model.cues) cue.classifier.Prepare();
-  model.decider.Prepare();
+  for (Decider& decider : model.deciders) decider.svm.Prepare();
   return model;
 }
 

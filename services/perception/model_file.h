@@ -11,7 +11,7 @@
 
 namespace beckon::perception {
 
-constexpr uint32_t kModelVersion = 1;
+constexpr uint32_t kModelVersion = 2;
 
 /// Same model, same bytes.
 std::vector<uint8_t> SerialiseModel(const Model& model);
