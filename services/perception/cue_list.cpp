@@ -75,7 +75,8 @@ Result<std::vector<std::string>> ParseCueNames(const std::string& text,
   for (const std::string& name : known) {
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) out.push_back(name);
   }
-  if (out.empty()) return Error{"no cue named; expected all, dissertation, or some of " + Listed(known)};
+  if (out.empty())
+    return Error{"no cue named; expected all, dissertation, or some of " + Listed(known)};
   return out;
 }
 

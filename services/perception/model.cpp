@@ -51,7 +51,13 @@ Status ValidateDecider(const Decider& decider, const Model& model) {
       !(decider.threshold >= 0 && decider.threshold <= 1)) {
     return Error{"its temperature or threshold is out of range"};
   }
-  if (cues.size() == 1 && decider.svm.classes() == 0) return {};
+  if (cues.size() == 1 && decider.svm.classes() == 0 && decider.correction.classes() == 0)
+    return {};
+  if (decider.correction.classes() > 0) {
+    Status status = ValidateSvm(decider.correction, "the correction", model.categories.size(),
+                                static_cast<int>(cues.size() * model.categories.size()));
+    if (!status) return status;
+  }
   return ValidateSvm(decider.svm, "the decision", model.categories.size(),
                      static_cast<int>(cues.size() * model.categories.size()));
 }
@@ -100,11 +106,27 @@ const Decider* FindDecider(const Model& model, const std::vector<uint32_t>& cues
 std::vector<float> Decide(const Decider& decider, std::vector<std::vector<float>> by_cue) {
   if (!FillMissing(by_cue)) return {};
   if (decider.svm.classes() == 0) {
-    return ApplyTemperature(by_cue.size() == 1 ? by_cue.front() : MeanOfCues(by_cue),
-                            decider.temperature);
+    return ApplyTemperature(by_cue.front(), decider.temperature);
   }
-  const std::vector<float> decided = decider.svm.Probabilities(StackFeatures(by_cue));
-  return ApplyTemperature(decider.blend ? Blend(decided, by_cue) : decided, decider.temperature);
+  const Features features = StackFeatures(by_cue);
+  const std::vector<float> decided = decider.svm.Probabilities(features);
+  std::vector<float> out =
+      ApplyTemperature(decider.blend ? Blend(decided, by_cue) : decided, decider.temperature);
+  if (decider.correction.classes() == 0) return out;
+  out = CorrectionOffsets(out);
+  const Eigen::VectorXf more = decider.correction.Decide(features);
+  Eigen::Map<Eigen::VectorXf> odds(out.data(), more.size());
+  odds += more;
+  odds = (odds.array() - odds.maxCoeff()).exp();
+  odds /= odds.sum();
+  return out;
+}
+
+std::vector<float> CorrectionOffsets(const std::vector<float>& decided) {
+  constexpr float kLeast = 1e-3F;
+  std::vector<float> offsets;
+  for (const float p : decided) offsets.push_back(std::log(std::max(p, kLeast)));
+  return offsets;
 }
 
 bool FillMissing(std::vector<std::vector<float>>& by_cue) {

@@ -23,11 +23,13 @@ struct CueModel {
 /// How some cues come to one answer.
 struct Decider {
   std::vector<uint32_t> cues;  // indices into Model::cues, increasing
-  SvmClassifier svm;      // over the square roots of these cues' probabilities, cue by cue; without
-                          // classes where there is but one cue, which then decides alone
-  bool blend = false;     // its answer with the cues' geometric mean; else as it comes
-  float temperature = 1;  // calibrates: p ~ p^(1 / temperature)
-  float threshold = 0.5F;  // at or below this confidence the user is asked
+  SvmClassifier svm;   // over the square roots of these cues' probabilities, cue by cue; without
+                       // classes where there is but one cue, which then decides alone
+  bool blend = false;  // its answer with the cues' geometric mean; else as it comes
+  SvmClassifier correction;  // what views that were added later say against it: log-odds to add,
+                             // over the same features; without classes where there are none
+  float temperature = 1;     // calibrates: p ~ p^(1 / temperature)
+  float threshold = 0.5F;    // at or below this confidence the user is asked
 };
 
 struct Model {
@@ -49,6 +51,13 @@ const Decider* FindDecider(const Model& model, const std::vector<uint32_t>& cues
 /// The calibrated probabilities from each of the decider's cues' (empty where a cue saw nothing);
 /// empty where none saw anything.
 std::vector<float> Decide(const Decider& decider, std::vector<std::vector<float>> by_cue);
+
+/// What the decider's correction is added to: no category is ruled out for good.
+std::vector<float> CorrectionOffsets(const std::vector<float>& decided);
+
+/// Makes room for a category that the model does not know yet: no machine ever claims it, so that
+/// only corrections can. It is in place where it is known.
+void AddCategory(const std::string& category, Model& model);
 
 /// Puts the geometric mean of the others in the place of what is empty; false where all are.
 bool FillMissing(std::vector<std::vector<float>>& by_cue);

@@ -67,8 +67,8 @@ Decider UnpackDecider(ByteReader in, size_t classes, bool& ok) {
   decider.blend = in.Read<uint8_t>() != 0;
   decider.temperature = in.Read<float>();
   decider.threshold = in.Read<float>();
-  if (in.Read<uint8_t>() != 0) {
-    decider.svm = UnpackSvm(in.ReadSection("SVM "), classes, ok);
+  for (SvmClassifier* svm : {&decider.svm, &decider.correction}) {
+    if (in.Read<uint8_t>() != 0) *svm = UnpackSvm(in.ReadSection("SVM "), classes, ok);
   }
   ok = ok && in.done();
   return decider;
@@ -81,9 +81,11 @@ ByteWriter Pack(const Decider& decider) {
   out.Write(static_cast<uint8_t>(decider.blend));
   out.Write(decider.temperature);
   out.Write(decider.threshold);
-  const bool learnt = decider.svm.classes() > 0;
-  out.Write(static_cast<uint8_t>(learnt));
-  if (learnt) out.WriteSection("SVM ", Pack(decider.svm));
+  for (const SvmClassifier* svm : {&decider.svm, &decider.correction}) {
+    const bool learnt = svm->classes() > 0;
+    out.Write(static_cast<uint8_t>(learnt));
+    if (learnt) out.WriteSection("SVM ", Pack(*svm));
+  }
   return out;
 }
 
@@ -174,7 +176,10 @@ Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& n
     return Refuse(name, "unusable: " + status.error().message);
   }
   for (CueModel& cue : model.cues) cue.classifier.Prepare();
-  for (Decider& decider : model.deciders) decider.svm.Prepare();
+  for (Decider& decider : model.deciders) {
+    decider.svm.Prepare();
+    decider.correction.Prepare();
+  }
   return model;
 }
 

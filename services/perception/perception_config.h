@@ -11,10 +11,11 @@ namespace beckon::perception {
 
 struct PerceptionConfig {
   PerceiverConfig perceiver;
-  bool categories = true;       // false: objects stay uncategorised
-  std::string model;            // file of beckon-train; empty: the one that ships
-  std::string cues = "all";     // of the model's that have a say, as Categoriser::UseCues takes them
-  double unknown_prior = -1;    // factor on the probability of "Unknown"; negative: as the model has it
+  bool categories = true;    // false: objects stay uncategorised
+  std::string model;         // file of beckon-train; empty: the one that ships
+  std::string cues = "all";  // of the model's that have a say, as Categoriser::UseCues takes them
+  double unknown_prior =
+      -1;  // factor on the probability of "Unknown"; negative: as the model has it
   double ask_at_or_below = -1;  // confidence 0..1; negative: as the model has it
 };
 

@@ -196,8 +196,7 @@ Result<ViewFeatures> Trainer::Describe(const ObjectView& view) const {
   return features;
 }
 
-void Trainer::Add(ViewFeatures features, const std::string& category,
-                  const std::string& instance) {
+void Trainer::Add(ViewFeatures features, const std::string& category, const std::string& instance) {
   state_->features.push_back(std::move(features));
   state_->categories.push_back(category);
   state_->instances.push_back(category + "/" + instance);
@@ -265,8 +264,9 @@ Result<TrainOutcome> Trainer::Finish(const Watch& watch) {
     }
   }
   if (out.model.cues.empty()) {
-    return Error{"none of the cues sees two objects of each category; give views with colour, or "
-                 "other cues with --cues"};
+    return Error{
+        "none of the cues sees two objects of each category; give views with colour, or "
+        "other cues with --cues"};
   }
   for (const DeciderPlan& plan : PlanDeciders(out.model)) {
     auto trained = TrainDecider(s.config, out.model.categories, plan.cues, plan.blend, by_cue, set,

@@ -19,8 +19,8 @@ namespace beckon::perception {
 struct TrainConfig {
   uint64_t seed = 1;
   std::string cues = "all";  // that the model holds, as ParseCueNames takes them
-  int folds = 5;         // of the cross-validation; an instance's views share a fold
-  int sift_words = 150;  // sizes of the vocabularies
+  int folds = 5;             // of the cross-validation; an instance's views share a fold
+  int sift_words = 150;      // sizes of the vocabularies
   int hog_words = 150;
   int fpfh_words = 80;
   int vocabulary_views = 400;     // views, drawn at random, that vocabularies are learnt from
@@ -32,7 +32,8 @@ struct TrainConfig {
   double decider_gamma_scale = 0.5;
   double unknown_prior = 1;  // Model::unknown_prior
   int threads = 1;           // nothing depends on it but the time
-  double caution = 1.5;  // factor on the fitted temperature: the world is harder than a rendering
+  double caution =
+      1;  // factor on the fitted temperature; above 1: less sure than held-out views say
   double target_accuracy = 0.98;  // of what is answered without asking; decides the threshold
 };
 

@@ -19,7 +19,8 @@ void WriteData(std::ostream& out, const CardSubject& subject) {
     instances.insert(record.instance);
   }
   out << "## Trained on\n`" << subject.data << "`: " << subject.records.size() << " views, "
-      << subject.skipped.size() << " more left out\n\n| category | objects | views |\n|---|---|---|\n";
+      << subject.skipped.size()
+      << " more left out\n\n| category | objects | views |\n|---|---|---|\n";
   for (const auto& [category, counts] : by_category) {
     out << "| " << category << " | " << counts.second.size() << " | " << counts.first << " |\n";
   }
@@ -37,8 +38,8 @@ void WriteConfig(std::ostream& out, const TrainConfig& c) {
       << ", words " << c.sift_words << " / " << c.hog_words << " / " << c.fpfh_words
       << " (sift / hog / fpfh) from " << c.vocabulary_views << " views, cost " << c.cost
       << ", gamma_scale " << c.gamma_scale << ", decider " << c.decider_cost << " / "
-      << c.decider_gamma_scale << ", caution " << c.caution << ", unknown_prior "
-      << c.unknown_prior << ", target_accuracy " << c.target_accuracy << "\n";
+      << c.decider_gamma_scale << ", caution " << c.caution << ", unknown_prior " << c.unknown_prior
+      << ", target_accuracy " << c.target_accuracy << "\n";
 }
 
 /// The most frequent pairs of a category and what its views were taken for.
@@ -72,10 +73,12 @@ void WriteLimits(std::ostream& out, const std::vector<std::string>& categories) 
   const bool knows_unknown =
       std::find(categories.begin(), categories.end(), kUnknown) != categories.end();
   out << "\n## Not good for\n"
-      << "- " << (knows_unknown ? "Strange things unlike those it saw as Unknown"
-                                : "Strange things: it knows no Unknown")
+      << "- "
+      << (knows_unknown ? "Strange things unlike those it saw as Unknown"
+                        : "Strange things: it knows no Unknown")
       << "; they are named as what they resemble most.\n"
-      << "- Objects that differ from those above in size, sensor, pose or wear. The figures are for "
+      << "- Objects that differ from those above in size, sensor, pose or wear. The figures are "
+         "for "
          "objects like those it was trained on, each held out whole; on others they are lower.\n"
       << "- Views with few points, hidden parts or no table plane: more of them are asked about, "
          "and more are wrong.\n"

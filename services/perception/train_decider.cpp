@@ -23,8 +23,8 @@ std::optional<std::vector<std::vector<float>>> HeldOutDecisions(const TrainConfi
   }
   set.features.clear();
   for (const ByCue& input : inputs) set.features.push_back(StackFeatures(input));
-  auto trained = TrainSvm(
-      set, {config.decider_cost, config.decider_gamma_scale, config.threads}, done);
+  auto trained =
+      TrainSvm(set, {config.decider_cost, config.decider_gamma_scale, config.threads}, done);
   if (!trained) return std::nullopt;
   decider.svm = std::move(trained->classifier);
   for (size_t i = 0; i < inputs.size(); ++i) {
@@ -67,8 +67,7 @@ std::optional<TrainedDecider> TrainDecider(const TrainConfig& config,
   for (size_t i = 0; i < views.size(); ++i) {
     HeldOutPrediction& held_out = out.held_out[views[i]];
     held_out.probabilities = ApplyTemperature((*decisions)[i], out.decider.temperature);
-    ApplyUnknownPrior(categories, static_cast<float>(config.unknown_prior),
-                      held_out.probabilities);
+    ApplyUnknownPrior(categories, static_cast<float>(config.unknown_prior), held_out.probabilities);
     held_out.confidence = RenyiConfidence(held_out.probabilities);
   }
   out.decider.threshold = ChooseThreshold(Judge(out.held_out), config.target_accuracy);

@@ -8,8 +8,8 @@
 #include "services/perception/categoriser.h"
 #include "services/perception/model.h"
 #include "services/perception/train_data.h"
-#include "services/perception/train_program.h"
 #include "services/perception/train_figures.h"
+#include "services/perception/train_program.h"
 
 namespace beckon::perception {
 namespace {
@@ -68,10 +68,10 @@ struct Tally {
 void Print(Tally& tally, const Categoriser& categoriser, const std::vector<std::string>& names) {
   std::sort(tally.times_ms.begin(), tally.times_ms.end());
   const auto views = static_cast<double>(tally.judgements.size());
-  std::printf("%zu views, %d skipped, %d without an answer\n%s\n", tally.judgements.size(),
-              tally.skipped, tally.unanswered,
-              Text(FiguresOf(tally.judgements, categoriser.categories(), categoriser.threshold()))
-                  .c_str());
+  std::printf(
+      "%zu views, %d skipped, %d without an answer\n%s\n", tally.judgements.size(), tally.skipped,
+      tally.unanswered,
+      Text(FiguresOf(tally.judgements, categoriser.categories(), categoriser.threshold())).c_str());
   std::printf("time per object: median %.1f ms, longest %.1f ms (",
               tally.times_ms[tally.times_ms.size() / 2], tally.times_ms.back());
   const char* comma = "";

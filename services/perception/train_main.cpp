@@ -44,6 +44,10 @@ Status Run(const AppOptions& app_options, TrainOptions& options, TrainConfig& co
   options.terminal = isatty(STDERR_FILENO) != 0;
   options.version = VersionString();
   if (!options.data.empty()) {
+    if (options.base == "shipped") options.base = SharedFile("categories.model");
+    if (!options.base.empty() && !options.cues.empty()) {
+      return Error{"--base keeps the cues of its model: expected no --cues with it"};
+    }
     if (!options.cues.empty()) config.cues = options.cues;
     if (options.model.empty()) return Error{"--data needs --model FILE, where to write the model"};
     return RunTraining(options, config);
@@ -67,9 +71,14 @@ int main(int argc, char** argv) {
   app.add_option("--test", options.test, "Folder to test on")->type_name("DIR");
   app.add_option("--model", options.model, "Model to write, or to test (default: the shipped one)")
       ->type_name("FILE");
-  app.add_option("--jsonl", options.jsonl, "Write a line for each view: with --test what the model says, with --data what "
+  app.add_option("--jsonl", options.jsonl,
+                 "Write a line for each view: with --test what the model says, with --data what "
                  "cross-validation said")
       ->type_name("FILE");
+  app.add_option("--base", options.base,
+                 "With --data: improve this model by the views, without what it was trained on; "
+                 "\"shipped\" is the one that is installed")
+      ->type_name("MODEL");
   app.add_option("--cues", options.cues,
                  "Cues the model holds, or with --test those that have a say: all (default), "
                  "dissertation, or names parted by commas")

@@ -116,9 +116,9 @@ Status DrawConfusions(const std::vector<Judgement>& judgements,
 Status DrawRiskCoverage(const std::vector<Judgement>& judgements, float threshold,
                         const std::string& path) {
   std::vector<Judgement> sorted = judgements;
-  std::stable_sort(
-      sorted.begin(), sorted.end(),
-      [](const Judgement& a, const Judgement& b) { return a.confidence > b.confidence; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Judgement& a, const Judgement& b) {
+    return a.confidence > b.confidence;
+  });
   std::vector<double> accuracy;
   int right = 0, answered = 0;
   for (const Judgement& j : sorted) {

@@ -1,24 +1,22 @@
 // Folder in, model and card out.
 #include "services/perception/train_program.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "services/base/utime.h"
 #include "services/perception/model_file.h"
+#include "services/perception/train_base.h"
 #include "services/perception/train_card.h"
-#include "services/perception/train_data.h"
 #include "services/perception/train_figures.h"
-#include "services/perception/train_progress.h"
+#include "services/perception/train_reading.h"
 
 namespace beckon::perception {
 namespace {
-
-using Skipped = std::map<std::string, std::string>;  // file -> why
 
 std::string Describe(const std::vector<ViewRecord>& records) {
   std::set<std::string> categories, instances;
@@ -30,33 +28,7 @@ std::string Describe(const std::vector<ViewRecord>& records) {
          " instances in " + std::to_string(categories.size()) + " categories";
 }
 
-/// Reads `records`, several at a time, and makes of each what `make` does; names those that cannot
-/// be used. One entry a record; false where it was told to stop.
-template <typename Made>
-bool ReadAll(const std::vector<ViewRecord>& records, const std::string& step, int threads,
-             const std::function<Result<Made>(const ObjectView&)>& make, Progress& progress,
-             std::vector<std::optional<Made>>& made, Skipped& skipped) {
-  made.resize(records.size());
-  std::vector<std::string> why(records.size());
-  const bool whole = ParallelFor(
-      records.size(), threads,
-      [&](size_t i) {
-        const Result<LoadedView> view = LoadView(records[i]);
-        Result<Made> result = view ? make(view->view()) : Result<Made>(view.error());
-        if (result) {
-          made[i] = std::move(*result);
-        } else {
-          why[i] = result.error().message;
-        }
-      },
-      [&](size_t done, size_t total) { return progress.Tell(step, done, total); });
-  for (size_t i = 0; i < records.size(); ++i) {
-    if (why[i].empty() || skipped.contains(records[i].file)) continue;
-    progress.Say("skipped " + records[i].file + ": " + why[i]);
-    skipped[records[i].file] = why[i];
-  }
-  return whole;
-}
+Error Stopped() { return {"stopped on request; no model was written"}; }
 
 /// Hands the trainer all views; false where it was told to stop. `records` loses those skipped.
 bool FeedTrainer(std::vector<ViewRecord>& records, int threads, Trainer& trainer,
@@ -82,14 +54,57 @@ bool FeedTrainer(std::vector<ViewRecord>& records, int threads, Trainer& trainer
           skipped)) {
     return false;
   }
-  std::vector<ViewRecord> used;
+  KeepMade(records, features);
   for (size_t i = 0; i < records.size(); ++i) {
-    if (!features[i]) continue;
     trainer.Add(std::move(*features[i]), records[i].category, records[i].instance);
-    used.push_back(std::move(records[i]));
   }
-  records = std::move(used);
   return true;
+}
+
+Result<TrainOutcome> Learn(std::vector<ViewRecord>& records, const TrainConfig& config,
+                           Progress& progress, Skipped& skipped) {
+  Result<Trainer> trainer = Trainer::Make(config);
+  if (!trainer) return trainer.error();
+  if (!FeedTrainer(records, config.threads, *trainer, progress, skipped)) return Stopped();
+  auto outcome = trainer->Finish([&](const std::string& step, size_t done, size_t total) {
+    return progress.Tell(step, done, total);
+  });
+  if (outcome) outcome->model.description = Describe(records);
+  return outcome;
+}
+
+/// `before`: what the base said of the views, for comparison.
+Result<TrainOutcome> Improve(const std::string& base_file, std::vector<ViewRecord>& records,
+                             const TrainConfig& config, Progress& progress, Skipped& skipped,
+                             std::string& before) {
+  Result<Model> base = ReadModelFile(base_file);
+  if (!base) return Error{"--base " + base.error().message};
+  const std::string base_description = base->description;
+  std::set<std::string> categories;
+  for (const ViewRecord& record : records) categories.insert(record.category);
+  BaseTrainer trainer(std::move(*base), {categories.begin(), categories.end()});
+  std::vector<std::optional<std::vector<std::vector<float>>>> said;
+  if (!ReadAll<std::vector<std::vector<float>>>(
+          records, "reading the views", config.threads,
+          [&](const ObjectView& view) { return trainer.Describe(view); }, progress, said,
+          skipped)) {
+    return Stopped();
+  }
+  KeepMade(records, said);
+  for (size_t i = 0; i < records.size(); ++i) {
+    trainer.Add(std::move(*said[i]), records[i].category, records[i].instance);
+  }
+  auto outcome = trainer.Finish(config, [&](const std::string& step, size_t done, size_t total) {
+    return progress.Tell(step, done, total);
+  });
+  if (!outcome) return outcome.error();
+  Model& model = outcome->improved.model;
+  model.description = base_description + "; improved by " + Describe(records);
+  before =
+      "the base said of these views: " +
+      Text(FiguresOf(Judge(outcome->before), model.categories, model.deciders.front().threshold)) +
+      "\n";
+  return std::move(outcome->improved);
 }
 
 Status WriteText(const std::string& path, const std::string& text) {
@@ -177,28 +192,22 @@ Status RunTraining(const TrainOptions& options, const TrainConfig& config) {
   auto records = ListViews(options.data);
   if (!records) return records.error();
   progress.Say(options.data + ": " + Describe(*records));
-  Result<Trainer> trainer = Trainer::Make(config);
-  if (!trainer) return trainer.error();
-  Skipped skipped;
-  if (!FeedTrainer(*records, config.threads, *trainer, progress, skipped)) {
-    return Error{"stopped on request; no model was written"};
-  }
-  Result<TrainOutcome> outcome =
-      trainer->Finish([&](const std::string& step, size_t done, size_t total) {
-        return progress.Tell(step, done, total);
-      });
+  CardSubject subject{options.model, options.data, {}, {}, options.version, options.base};
+  std::string before;
+  auto outcome = options.base.empty()
+                     ? Learn(*records, config, progress, subject.skipped)
+                     : Improve(options.base, *records, config, progress, subject.skipped, before);
   if (!outcome) return Error{options.data + ": " + outcome.error().message};
-  outcome->model.description = Describe(*records);
   if (Status status = WriteModelFile(options.model, outcome->model); !status) return status;
   progress.Say("done in " + std::to_string(static_cast<int>(watch.Milliseconds() / 1000)) + " s");
 
-  Print(*outcome, config, skipped.size());
+  Print(*outcome, config, subject.skipped.size());
+  std::fputs(before.c_str(), stdout);
   if (Status status = PrintFile(options.model); !status) return status;
   const std::string card =
-      options.card.empty()
-          ? std::filesystem::path(options.model).replace_extension(".md").string()
-          : options.card;
-  const CardSubject subject{options.model, options.data, *records, skipped, options.version, {}};
+      options.card.empty() ? std::filesystem::path(options.model).replace_extension(".md").string()
+                           : options.card;
+  subject.records = *records;
   if (Status s = WriteText(card, ModelCard(subject, config, *outcome)); !s) return s;
   if (!options.jsonl.empty()) {
     if (Status s = WriteText(options.jsonl, HeldOutLines(*records, *outcome)); !s) return s;

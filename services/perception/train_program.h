@@ -11,17 +11,18 @@
 namespace beckon::perception {
 
 struct TrainOptions {
-  std::string data;      // folder to learn from
-  std::string test;      // folder to judge on
-  std::string model;     // to write with `data`, to read with `test`
-  std::string cues;      // with `test`: those that have a say; empty: all
-  std::string jsonl;     // a line a view; with `data` of what cross-validation said
-  std::string picture;   // confusion matrix, PNG; may be empty
-  std::string pictures;  // folder for all pictures; may be empty
-  std::string card;      // the model's card; empty: the model's file with .md
-  std::string version;   // of the program, for the card
-  bool terminal = false;           // standard error is one
-  std::function<bool()> stopped;   // whether to leave; empty: never
+  std::string data;               // folder to learn from
+  std::string test;               // folder to judge on
+  std::string model;              // to write with `data`, to read with `test`
+  std::string base;               // with `data`: a model to improve by it; empty: learn a new one
+  std::string cues;               // with `test`: those that have a say; empty: all
+  std::string jsonl;              // a line a view; with `data` of what cross-validation said
+  std::string picture;            // confusion matrix, PNG; may be empty
+  std::string pictures;           // folder for all pictures; may be empty
+  std::string card;               // the model's card; empty: the model's file with .md
+  std::string version;            // of the program, for the card
+  bool terminal = false;          // standard error is one
+  std::function<bool()> stopped;  // whether to leave; empty: never
 };
 
 /// [train] of a configuration file over the defaults.

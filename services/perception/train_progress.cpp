@@ -19,8 +19,8 @@ bool Progress::Tell(const std::string& step, size_t done, size_t total) {
     step_ = step;
     began_ = now;
   }
-  const bool due = begins || now - told_ >= (terminal_ ? kRedraw : kNewLine) ||
-                   (terminal_ && done == total);
+  const bool due =
+      begins || now - told_ >= (terminal_ ? kRedraw : kNewLine) || (terminal_ && done == total);
   if (due) {
     told_ = now;
     const std::string text =

@@ -1,7 +1,6 @@
 // Tables for people, in plain text.
 #include "services/perception/train_report.h"
 
-
 #include <algorithm>
 #include <cstdio>
 
@@ -155,11 +154,12 @@ std::string DeciderName(const Model& model, const Decider& decider) {
 }
 
 std::string CueTable(const TrainOutcome& outcome) {
-  std::string out = "cues          accuracy  macro recall  top 3  surest 70 %    ECE      T   asks\n";
+  std::string out =
+      "cues          accuracy  macro recall  top 3  surest 70 %    ECE      T   asks\n";
   for (size_t d = 0; d < outcome.model.deciders.size(); ++d) {
     const Decider& decider = outcome.model.deciders[d];
-    const Figures f = FiguresOf(Judge(outcome.held_out[d]), outcome.model.categories,
-                                decider.threshold);
+    const Figures f =
+        FiguresOf(Judge(outcome.held_out[d]), outcome.model.categories, decider.threshold);
     out += Format("%-13s %8.3f  %12.3f  %5.3f  %11.3f  %5.3f  %5.3f  %4.1f%%\n",
                   DeciderName(outcome.model, decider).c_str(), f.accuracy, f.macro_recall, f.top_3,
                   f.surest_70, f.calibration_error, static_cast<double>(decider.threshold),
