@@ -61,6 +61,20 @@ bool FeedTrainer(std::vector<ViewRecord>& records, int threads, Trainer& trainer
   return true;
 }
 
+/// Says which sub-folders gave nothing.
+void NoteEmptyCategories(const std::string& folder, const std::vector<ViewRecord>& used,
+                         std::vector<std::string>& notes) {
+  std::set<std::string> empty;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.is_directory(error)) empty.insert(entry.path().filename().string());
+  }
+  for (const ViewRecord& record : used) empty.erase(record.category);
+  for (const std::string& name : empty) {
+    notes.push_back("the folder " + name + " holds no usable view; nothing was learnt of it");
+  }
+}
+
 Result<TrainOutcome> Learn(std::vector<ViewRecord>& records, const TrainConfig& config,
                            Progress& progress, Skipped& skipped) {
   Result<Trainer> trainer = Trainer::Make(config);
@@ -198,6 +212,7 @@ Status RunTraining(const TrainOptions& options, const TrainConfig& config) {
                      ? Learn(*records, config, progress, subject.skipped)
                      : Improve(options.base, *records, config, progress, subject.skipped, before);
   if (!outcome) return Error{options.data + ": " + outcome.error().message};
+  NoteEmptyCategories(options.data, *records, outcome->notes);
   if (Status status = WriteModelFile(options.model, outcome->model); !status) return status;
   progress.Say("done in " + std::to_string(static_cast<int>(watch.Milliseconds() / 1000)) + " s");
 
