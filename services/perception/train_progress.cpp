@@ -46,7 +46,7 @@ std::string ProgressText(const std::string& step, size_t done, size_t total, dou
   if (total == 0) return step;
   char text[64];
   const double part = static_cast<double>(done) / static_cast<double>(total);
-  if (done == 0 || done == total) {
+  if (done == 0 || done == total || seconds < 1) {  // too early, or too late, for the time
     std::snprintf(text, sizeof(text), " %.0f %%", 100 * part);
   } else {
     const int left = static_cast<int>(seconds / part * (1 - part) + 0.5);

@@ -35,7 +35,9 @@ TEST(Unknown, IsSaidOfWhatLooksLikeIt) {
 }
 
 TEST(Unknown, IsAsProbableAsItsPriorSays) {
-  Categoriser categoriser(WithUnknown().model);
+  Model model = WithUnknown().model;
+  model.deciders.front().temperature = 8;  // else as good as certain
+  Categoriser categoriser(std::move(model));
   std::mt19937 random(5);
   const ShapeView can = RenderCategory("Can", random);
   const auto probability = [&](float prior) {

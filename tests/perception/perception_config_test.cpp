@@ -58,6 +58,8 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   EXPECT_EQ(read->categories, defaults.categories);
   EXPECT_EQ(read->model, defaults.model);
   EXPECT_EQ(read->ask_at_or_below, defaults.ask_at_or_below);
+  EXPECT_EQ(read->cues, defaults.cues);
+  EXPECT_EQ(read->unknown_prior, defaults.unknown_prior);
 }
 
 TEST(PerceptionConfig, RefusesWhatIsWrong) {
@@ -81,6 +83,22 @@ TEST(PerceptionConfig, TheCommandLineGoesOverTheFile) {
   EXPECT_EQ(read->model, "b");
   EXPECT_FALSE(read->categories);
   EXPECT_FALSE(Read("", {.segmentation = "magic"}));
+}
+
+TEST(PerceptionConfig, ChoosesTheCuesThatHaveASay) {
+  const auto read = Read("[categoriser]\ncues = \"shape\"\nunknown_prior = 3.0",
+                         {.cues = "dissertation"});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->cues, "dissertation");
+  const auto all = LoadCategoriser(PerceptionConfig()), some = LoadCategoriser(*read);
+  ASSERT_TRUE(all && some);
+  EXPECT_NE((*all)->threshold(), (*some)->threshold());
+  EXPECT_EQ((*some)->unknown_prior(), 3);
+  PerceptionConfig wrong;
+  wrong.cues = "smell";
+  const auto refused = LoadCategoriser(wrong);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("smell"));
 }
 
 TEST(PerceptionConfig, AMissingModelIsClear) {
