@@ -86,15 +86,19 @@ TEST(PerceptionConfig, TheCommandLineGoesOverTheFile) {
 }
 
 TEST(PerceptionConfig, ChoosesTheCuesThatHaveASay) {
+  const std::string model = BECKON_SOURCE_DIR "/services/perception/categories.model";
   const auto read = Read("[categoriser]\ncues = \"shape\"\nunknown_prior = 3.0",
-                         {.cues = "dissertation"});
+                         {.model = model, .cues = "dissertation"});
   ASSERT_TRUE(read);
   EXPECT_EQ(read->cues, "dissertation");
-  const auto all = LoadCategoriser(PerceptionConfig()), some = LoadCategoriser(*read);
-  ASSERT_TRUE(all && some);
+  PerceptionConfig plain;
+  plain.model = model;
+  const auto all = LoadCategoriser(plain), some = LoadCategoriser(*read);
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_TRUE(some) << some.error().message;
   EXPECT_NE((*all)->threshold(), (*some)->threshold());
   EXPECT_EQ((*some)->unknown_prior(), 3);
-  PerceptionConfig wrong;
+  PerceptionConfig wrong = plain;
   wrong.cues = "smell";
   const auto refused = LoadCategoriser(wrong);
   ASSERT_FALSE(refused);
