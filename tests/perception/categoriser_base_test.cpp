@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <map>
+
 #include "services/perception/categoriser.h"
 #include "services/perception/model_file.h"
+#include "services/perception/train_data.h"
 #include "tests/perception/categoriser_trained.h"
 
 namespace beckon::perception {
@@ -119,6 +123,81 @@ TEST(Base, SaysWhatItSaidBeforeAndWhatItSaysOfObjectsHeldOut) {
     after += outcome->improved.held_out[0][i].probabilities[0];
   }
   EXPECT_GT(after, before + 1);
+}
+
+/// Views of real products, kept outside the project.
+std::vector<LabelledView> RealViews() {
+  const char* data = std::getenv("BECKON_DATA");
+  const std::string folder =
+      (data != nullptr ? std::string(data) : std::string(BECKON_SOURCE_DIR) + "/../shared/data") +
+      "/objects";
+  const auto records = ListViews(folder);
+  std::vector<LabelledView> views;
+  if (!records) return views;
+  for (const ViewRecord& record : *records) {
+    auto view = LoadView(record);
+    if (!view) continue;
+    ShapeView shape{std::move(view->image), std::move(view->pixels),
+                    view->table_C.value_or(Plane{})};
+    views.push_back({std::move(shape), record.category, record.instance});
+  }
+  return views;
+}
+
+/// Half the products are one's own, and half of their views are learnt from.
+struct Halves {
+  std::vector<LabelledView> own, same_products, other_products;
+};
+
+Halves Split(const std::vector<LabelledView>& views, uint32_t seed) {
+  std::map<std::string, std::vector<const LabelledView*>> products;
+  for (const LabelledView& view : views) {
+    products[view.category + "/" + view.instance].push_back(&view);
+  }
+  std::vector<std::vector<const LabelledView*>> shuffled;
+  std::mt19937 random(seed);
+  for (auto& [name, of_product] : products) {
+    for (size_t i = of_product.size(); i > 1; --i) {
+      std::swap(of_product[i - 1], of_product[random() % i]);
+    }
+    shuffled.push_back(of_product);
+  }
+  for (size_t i = shuffled.size(); i > 1; --i) std::swap(shuffled[i - 1], shuffled[random() % i]);
+  Halves out;
+  for (size_t p = 0; p < shuffled.size(); ++p) {
+    for (size_t i = 0; i < shuffled[p].size(); ++i) {
+      const bool mine = p < shuffled.size() / 2, learnt = 2 * i < shuffled[p].size();
+      (!mine    ? out.other_products
+       : learnt ? out.own
+                : out.same_products)
+          .push_back(*shuffled[p][i]);
+    }
+  }
+  return out;
+}
+
+TEST(Base, ImprovesTheShippedModelOnRealProducts) {
+  const auto views = RealViews();
+  if (views.empty()) GTEST_SKIP() << "no real views (set BECKON_DATA)";
+  const Result<Model> base =
+      ReadModelFile(std::string(BECKON_SOURCE_DIR) + "/services/perception/categories.model");
+  ASSERT_TRUE(base) << base.error().message;
+  constexpr uint32_t kSplits = 5;
+  double same_before = 0, same_after = 0, other_before = 0, other_after = 0;
+  for (uint32_t seed = 0; seed < kSplits; ++seed) {
+    const Halves halves = Split(views, seed);
+    const auto outcome = Improve(*base, halves.own);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    const Model& improved = outcome->improved.model;
+    same_before += AccuracyOn(*base, halves.same_products) / kSplits;
+    same_after += AccuracyOn(improved, halves.same_products) / kSplits;
+    other_before += AccuracyOn(*base, halves.other_products) / kSplits;
+    other_after += AccuracyOn(improved, halves.other_products) / kSplits;
+  }
+  std::printf("same products %.3f -> %.3f, other products %.3f -> %.3f\n", same_before, same_after,
+              other_before, other_after);
+  EXPECT_GE(same_after, std::min(0.95, same_before + 0.05));
+  EXPECT_GE(other_after, other_before - 0.005);
 }
 
 TEST(Base, NamesTheCategoryThatHasNoUsableView) {
