@@ -10,8 +10,8 @@ namespace beckon::perception {
 
 /// The machines stay as they are. Each decider over several cues gets a correction: kernel logistic
 /// regression (Zhu and Hastie 2005) on the own views over the decider's features, with the model's
-/// log-odds as its offset. It is a sum of bumps around own views, each no larger than the model's
-/// error there: far from them the model says what it said. Views of one object count together as
+/// log-odds as its offset. It is a sum of bumps around own views, each as high as the model
+/// errs there: far from them the model says what it said. Views of one object count together as
 /// the square root of their number.
 class BaseTrainer {
  public:
