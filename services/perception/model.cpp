@@ -74,6 +74,9 @@ double MeanLog(const std::vector<std::vector<float>>& by_cue, size_t category) {
 Status Validate(const Model& model) {
   const size_t classes = model.categories.size();
   if (classes < 2) return Error{"it has fewer than two categories"};
+  if (classes > kMostCategories) {
+    return Error{"it has more than " + std::to_string(kMostCategories) + " categories"};
+  }
   if (!std::is_sorted(model.categories.begin(), model.categories.end()) ||
       std::adjacent_find(model.categories.begin(), model.categories.end()) !=
           model.categories.end()) {

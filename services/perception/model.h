@@ -13,6 +13,8 @@ namespace beckon::perception {
 /// The category of views that show none of the others; a category like them in all machines.
 inline constexpr char kUnknown[] = "Unknown";
 
+inline constexpr uint32_t kMostCategories = 64;
+
 /// What was learnt for one cue.
 struct CueModel {
   std::string name;  // of the cue
@@ -33,7 +35,7 @@ struct Decider {
 };
 
 struct Model {
-  std::vector<std::string> categories;  // alphabetical, two at least
+  std::vector<std::string> categories;  // alphabetical, 2 .. kMostCategories
   std::vector<CueModel> cues;
   std::vector<Decider> deciders;  // first the one over all cues
   float unknown_prior = 1;        // factor on the probability of kUnknown: how much more frequent

@@ -15,7 +15,6 @@ namespace {
 
 constexpr char kMagic[] = {'B', 'E', 'C', 'K', 'O', 'N', 'C', 'M'};
 constexpr size_t kHeader = sizeof(kMagic) + 4 + 8 + 4;  // version, length, CRC
-constexpr uint32_t kMostCategories = 64;
 constexpr uint32_t kMostCues = 32;
 constexpr uint32_t kMostDeciders = 64;
 
@@ -110,6 +109,19 @@ bool Unpack(ByteReader in, Model& model) {
   return ok && in.done();
 }
 
+/// The sections; empty where they are not what their length says.
+std::vector<uint8_t> Inflate(const uint8_t* data, size_t size) {
+  ByteReader head(data, size);
+  const auto length = head.Read<uint64_t>();
+  if (!head.ok() || length > kMostModelBytes) return {};
+  std::vector<uint8_t> sections(length);
+  uLongf written = length;
+  uLong read = size - sizeof(length);
+  const int result = uncompress2(sections.data(), &written, data + sizeof(length), &read);
+  if (result != Z_OK || written != length || read != size - sizeof(length)) return {};
+  return sections;
+}
+
 Error Refuse(const std::string& name, const std::string& why) {
   return Error{name + ": " + why + "; rebuild the model with beckon-train --data DIR --model " +
                name};
@@ -117,7 +129,7 @@ Error Refuse(const std::string& name, const std::string& why) {
 
 }  // namespace
 
-std::vector<uint8_t> SerialiseModel(const Model& model) {
+std::vector<uint8_t> ModelSections(const Model& model) {
   ByteWriter head;
   head.Write(static_cast<uint32_t>(model.categories.size()));
   for (const std::string& category : model.categories) head.Write(category);
@@ -138,14 +150,30 @@ std::vector<uint8_t> SerialiseModel(const Model& model) {
   }
   for (const Decider& decider : model.deciders) body.WriteSection("DECI", Pack(decider));
 
+  return body.bytes();
+}
+
+std::vector<uint8_t> WrapSections(const std::vector<uint8_t>& sections) {
+  uLongf size = compressBound(sections.size());
+  std::vector<uint8_t> packed(size);
+  compress2(packed.data(), &size, sections.data(), sections.size(), Z_DEFAULT_COMPRESSION);
+  packed.resize(size);
+  ByteWriter body;
+  body.Write(static_cast<uint64_t>(sections.size()));
   ByteWriter file;
   for (const char letter : kMagic) file.Write(letter);
   file.Write(kModelVersion);
-  file.Write(static_cast<uint64_t>(body.bytes().size()));
-  file.Write(Crc(body.bytes().data(), body.bytes().size()));
+  file.Write(static_cast<uint64_t>(body.bytes().size() + packed.size()));
+  std::vector<uint8_t> rest = body.bytes();
+  rest.insert(rest.end(), packed.begin(), packed.end());
+  file.Write(Crc(rest.data(), rest.size()));
   std::vector<uint8_t> bytes = file.bytes();
-  bytes.insert(bytes.end(), body.bytes().begin(), body.bytes().end());
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
   return bytes;
+}
+
+std::vector<uint8_t> SerialiseModel(const Model& model) {
+  return WrapSections(ModelSections(model));
 }
 
 Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& name) {
@@ -168,8 +196,9 @@ Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& n
   if (Crc(bytes.data() + kHeader, size) != crc) {
     return Refuse(name, "damaged: its checksum does not match");
   }
+  const std::vector<uint8_t> sections = Inflate(bytes.data() + kHeader, size);
   Model model;
-  if (!Unpack(ByteReader(bytes.data() + kHeader, size), model)) {
+  if (!Unpack(ByteReader(sections.data(), sections.size()), model)) {
     return Refuse(name, "garbled: its sections do not follow the format");
   }
   if (Status status = Validate(model); !status) {
@@ -184,14 +213,13 @@ Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& n
 }
 
 Result<Model> ReadModelFile(const std::string& path) {
-  constexpr uintmax_t kMostBytes = 64 << 20;
   std::error_code error;
   const uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
     return Error{path + ": cannot read the categories' model (" + error.message() +
                  "); give one with --model, or make one with beckon-train"};
   }
-  if (size > kMostBytes) return Refuse(path, "larger than any model (64 MB)");
+  if (size > kMostModelBytes) return Refuse(path, "larger than any model (64 MB)");
   std::vector<uint8_t> bytes(size);
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -200,6 +228,9 @@ Result<Model> ReadModelFile(const std::string& path) {
 }
 
 Status WriteModelFile(const std::string& path, const Model& model) {
+  if (Status status = Validate(model); !status) {
+    return Error{path + ": not written: " + status.error().message};
+  }
   const std::vector<uint8_t> bytes = SerialiseModel(model);
   const std::string part = path + ".part";
   {
