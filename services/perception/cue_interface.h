@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/base/result.h"
 #include "services/perception/cue_view.h"
 
 namespace beckon::perception {
@@ -26,7 +27,9 @@ class Cue {
   virtual std::string name() const = 0;
   virtual Encoding encoding() const = 0;
   virtual int dimension() const = 0;  // columns of what Describe returns
-  /// All finite. Rows: any number (kBag), else exactly one.
+  /// Whether the view holds what this cue looks at; where not, it has no say about the object.
+  virtual bool CanSee(const CueView&) const { return true; }
+  /// All finite. Rows: any number (kBag), else exactly one. Only where CanSee.
   virtual Descriptors Describe(const CueView& view) const = 0;
 };
 
@@ -36,5 +39,13 @@ std::vector<std::unique_ptr<const Cue>> MakeCues();
 
 /// The cue of that name, null where there is none.
 std::unique_ptr<const Cue> MakeCue(const std::string& name);
+
+/// The dissertation's three: SIFT, HOG and FPFH bags of words.
+const std::vector<std::string>& DissertationCues();
+
+/// "all", "dissertation" or names parted by commas: those names of `known` it stands for, in
+/// `known`'s order. Fails on a name that is not there and on nothing.
+Result<std::vector<std::string>> ParseCueNames(const std::string& text,
+                                               const std::vector<std::string>& known);
 
 }  // namespace beckon::perception

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace beckon::perception {
 namespace {
+
+constexpr double kDoubt = 0.01;  // no cue rules a category out on its own
 
 Status ValidateSvm(const SvmClassifier& svm, const std::string& name, size_t classes,
                    int dimension) {
@@ -38,11 +41,42 @@ Status ValidateCue(const CueModel& cue_model, size_t classes) {
                      encoder.FeatureCount(*cue));
 }
 
+Status ValidateDecider(const Decider& decider, const Model& model) {
+  const auto& cues = decider.cues;
+  if (cues.empty() || cues.back() >= model.cues.size() ||
+      std::adjacent_find(cues.begin(), cues.end(), std::greater_equal<>()) != cues.end()) {
+    return Error{"a decider's cues are not among the model's, in their order"};
+  }
+  if (!(decider.temperature >= 0.05F && decider.temperature <= 20) ||
+      !(decider.threshold >= 0 && decider.threshold <= 1)) {
+    return Error{"its temperature or threshold is out of range"};
+  }
+  if (cues.size() == 1 && decider.svm.classes() == 0 && decider.correction.classes() == 0)
+    return {};
+  if (decider.correction.classes() > 0) {
+    Status status = ValidateSvm(decider.correction, "the correction", model.categories.size(),
+                                static_cast<int>(cues.size() * model.categories.size()));
+    if (!status) return status;
+  }
+  return ValidateSvm(decider.svm, "the decision", model.categories.size(),
+                     static_cast<int>(cues.size() * model.categories.size()));
+}
+
+/// The mean of the cues' log probabilities of one category.
+double MeanLog(const std::vector<std::vector<float>>& by_cue, size_t category) {
+  double sum = 0;
+  for (const auto& p : by_cue) sum += std::log(static_cast<double>(p[category]) + kDoubt);
+  return sum / static_cast<double>(by_cue.size());
+}
+
 }  // namespace
 
 Status Validate(const Model& model) {
   const size_t classes = model.categories.size();
   if (classes < 2) return Error{"it has fewer than two categories"};
+  if (classes > kMostCategories) {
+    return Error{"it has more than " + std::to_string(kMostCategories) + " categories"};
+  }
   if (!std::is_sorted(model.categories.begin(), model.categories.end()) ||
       std::adjacent_find(model.categories.begin(), model.categories.end()) !=
           model.categories.end()) {
@@ -52,31 +86,85 @@ Status Validate(const Model& model) {
   for (const CueModel& cue : model.cues) {
     if (Status status = ValidateCue(cue, classes); !status) return status;
   }
-  if (!(model.temperature >= 0.05F && model.temperature <= 20) ||
-      !(model.threshold >= 0 && model.threshold <= 1)) {
-    return Error{"its temperature or threshold is out of range"};
+  if (!(model.unknown_prior >= 0.001F && model.unknown_prior <= 1000)) {
+    return Error{"its prior of the unknown is out of range"};
   }
-  return ValidateSvm(model.decider, "the decision", classes,
-                     static_cast<int>(model.cues.size() * classes));
+  if (model.deciders.empty()) return Error{"it has no decider"};
+  for (const Decider& decider : model.deciders) {
+    if (Status status = ValidateDecider(decider, model); !status) return status;
+  }
+  if (model.deciders.front().cues.size() != model.cues.size()) {
+    return Error{"its first decider is not over all cues"};
+  }
+  return {};
 }
 
-std::vector<float> Decide(const Model& model, const std::vector<std::vector<float>>& by_cue) {
-  return ApplyTemperature(Blend(model.decider.Probabilities(StackFeatures(by_cue)), by_cue),
-                          model.temperature);
+const Decider* FindDecider(const Model& model, const std::vector<uint32_t>& cues) {
+  for (const Decider& decider : model.deciders) {
+    if (decider.cues == cues) return &decider;
+  }
+  return nullptr;
+}
+
+std::vector<float> Decide(const Decider& decider, std::vector<std::vector<float>> by_cue) {
+  if (!FillMissing(by_cue)) return {};
+  if (decider.svm.classes() == 0) {
+    return ApplyTemperature(by_cue.front(), decider.temperature);
+  }
+  const Features features = StackFeatures(by_cue);
+  const std::vector<float> decided = decider.svm.Probabilities(features);
+  std::vector<float> out =
+      ApplyTemperature(decider.blend ? Blend(decided, by_cue) : decided, decider.temperature);
+  if (decider.correction.classes() == 0) return out;
+  out = CorrectionOffsets(out);
+  const Eigen::VectorXf more = decider.correction.Decide(features);
+  Eigen::Map<Eigen::VectorXf> odds(out.data(), more.size());
+  odds += more;
+  odds = (odds.array() - odds.maxCoeff()).exp();
+  odds /= odds.sum();
+  return out;
+}
+
+std::vector<float> CorrectionOffsets(const std::vector<float>& decided) {
+  constexpr float kLeast = 1e-3F;
+  std::vector<float> offsets;
+  for (const float p : decided) offsets.push_back(std::log(std::max(p, kLeast)));
+  return offsets;
+}
+
+bool FillMissing(std::vector<std::vector<float>>& by_cue) {
+  std::vector<std::vector<float>> seen;
+  for (const auto& p : by_cue) {
+    if (!p.empty()) seen.push_back(p);
+  }
+  if (seen.empty()) return false;
+  if (seen.size() == by_cue.size()) return true;
+  const std::vector<float> mean = MeanOfCues(seen);
+  for (auto& p : by_cue) {
+    if (p.empty()) p = mean;
+  }
+  return true;
+}
+
+std::vector<float> MeanOfCues(const std::vector<std::vector<float>>& by_cue) {
+  std::vector<float> out(by_cue.front().size());
+  float sum = 0;
+  for (size_t c = 0; c < out.size(); ++c) {
+    out[c] = static_cast<float>(std::exp(MeanLog(by_cue, c)));
+    sum += out[c];
+  }
+  for (float& p : out) p /= sum;
+  return out;
 }
 
 std::vector<float> Blend(const std::vector<float>& decided,
                          const std::vector<std::vector<float>>& by_cue) {
-  constexpr double kDoubt = 0.01;             // no cue rules a category out on its own
   constexpr double kDeciderWeight = 1.0 / 3;  // chosen on views of meshes, flat from 0.2 to 0.45
   std::vector<double> product(decided.size());
   double sum = 0;
   for (size_t c = 0; c < decided.size(); ++c) {
-    double cues = 0;
-    for (const auto& p : by_cue) cues += std::log(static_cast<double>(p[c]) + kDoubt);
     const double own = std::log(static_cast<double>(decided[c]) + 0.1 * kDoubt);
-    product[c] = std::exp(kDeciderWeight * own +
-                          (1 - kDeciderWeight) * cues / static_cast<double>(by_cue.size()));
+    product[c] = std::exp(kDeciderWeight * own + (1 - kDeciderWeight) * MeanLog(by_cue, c));
     sum += product[c];
   }
   std::vector<float> out;
@@ -105,6 +193,16 @@ std::vector<float> ApplyTemperature(const std::vector<float>& probabilities, flo
   }
   for (float& p : out) p /= sum;
   return out;
+}
+
+void ApplyUnknownPrior(const std::vector<std::string>& categories, float prior,
+                       std::vector<float>& probabilities) {
+  const auto at = std::find(categories.begin(), categories.end(), kUnknown);
+  if (at == categories.end() || probabilities.size() != categories.size()) return;
+  probabilities[static_cast<size_t>(at - categories.begin())] *= prior;
+  float sum = 0;
+  for (const float p : probabilities) sum += p;
+  for (float& p : probabilities) p /= sum;
 }
 
 }  // namespace beckon::perception

@@ -18,7 +18,7 @@ class ByteWriter {
   requires std::is_arithmetic_v<T>
   void Write(T value) {
     const auto* p = reinterpret_cast<const uint8_t*>(&value);
-    bytes_.insert(bytes_.end(), p, p + sizeof(T));
+    for (size_t i = 0; i < sizeof(T); ++i) bytes_.push_back(p[i]);
   }
   void Write(const std::string& text) {
     Write(static_cast<uint32_t>(text.size()));

@@ -15,8 +15,8 @@ namespace {
 
 constexpr char kMagic[] = {'B', 'E', 'C', 'K', 'O', 'N', 'C', 'M'};
 constexpr size_t kHeader = sizeof(kMagic) + 4 + 8 + 4;  // version, length, CRC
-constexpr uint32_t kMostCategories = 64;
 constexpr uint32_t kMostCues = 32;
+constexpr uint32_t kMostDeciders = 64;
 
 uint32_t Crc(const uint8_t* data, size_t size) {
   return static_cast<uint32_t>(crc32(0, data, static_cast<uInt>(size)));
@@ -59,23 +59,67 @@ CueModel UnpackCue(ByteReader in, size_t classes, bool& ok) {
   return cue;
 }
 
+Decider UnpackDecider(ByteReader in, size_t classes, bool& ok) {
+  Decider decider;
+  const uint32_t cues = std::min(in.Read<uint32_t>(), kMostCues);
+  for (uint32_t i = 0; i < cues; ++i) decider.cues.push_back(in.Read<uint32_t>());
+  decider.blend = in.Read<uint8_t>() != 0;
+  decider.temperature = in.Read<float>();
+  decider.threshold = in.Read<float>();
+  for (SvmClassifier* svm : {&decider.svm, &decider.correction}) {
+    if (in.Read<uint8_t>() != 0) *svm = UnpackSvm(in.ReadSection("SVM "), classes, ok);
+  }
+  ok = ok && in.done();
+  return decider;
+}
+
+ByteWriter Pack(const Decider& decider) {
+  ByteWriter out;
+  out.Write(static_cast<uint32_t>(decider.cues.size()));
+  for (const uint32_t cue : decider.cues) out.Write(cue);
+  out.Write(static_cast<uint8_t>(decider.blend));
+  out.Write(decider.temperature);
+  out.Write(decider.threshold);
+  for (const SvmClassifier* svm : {&decider.svm, &decider.correction}) {
+    const bool learnt = svm->classes() > 0;
+    out.Write(static_cast<uint8_t>(learnt));
+    if (learnt) out.WriteSection("SVM ", Pack(*svm));
+  }
+  return out;
+}
+
 /// False where the sections do not follow the format.
 bool Unpack(ByteReader in, Model& model) {
   bool ok = true;
   ByteReader head = in.ReadSection("HEAD");
   const uint32_t categories = std::min(head.Read<uint32_t>(), kMostCategories);
   for (uint32_t i = 0; i < categories; ++i) model.categories.push_back(head.ReadText());
-  model.temperature = head.Read<float>();
-  model.threshold = head.Read<float>();
+  model.unknown_prior = head.Read<float>();
   model.seed = head.Read<uint64_t>();
   model.description = head.ReadText();
   const uint32_t cues = std::min(head.Read<uint32_t>(), kMostCues);
+  const uint32_t deciders = std::min(head.Read<uint32_t>(), kMostDeciders);
   ok = head.done();
   for (uint32_t i = 0; ok && i < cues; ++i) {
     model.cues.push_back(UnpackCue(in.ReadSection("CUE "), categories, ok));
   }
-  if (ok) model.decider = UnpackSvm(in.ReadSection("DECI"), categories, ok);
+  for (uint32_t i = 0; ok && i < deciders; ++i) {
+    model.deciders.push_back(UnpackDecider(in.ReadSection("DECI"), categories, ok));
+  }
   return ok && in.done();
+}
+
+/// The sections; empty where they are not what their length says.
+std::vector<uint8_t> Inflate(const uint8_t* data, size_t size) {
+  ByteReader head(data, size);
+  const auto length = head.Read<uint64_t>();
+  if (!head.ok() || length > kMostModelBytes) return {};
+  std::vector<uint8_t> sections(length);
+  uLongf written = length;
+  uLong read = size - sizeof(length);
+  const int result = uncompress2(sections.data(), &written, data + sizeof(length), &read);
+  if (result != Z_OK || written != length || read != size - sizeof(length)) return {};
+  return sections;
 }
 
 Error Refuse(const std::string& name, const std::string& why) {
@@ -85,15 +129,15 @@ Error Refuse(const std::string& name, const std::string& why) {
 
 }  // namespace
 
-std::vector<uint8_t> SerialiseModel(const Model& model) {
+std::vector<uint8_t> ModelSections(const Model& model) {
   ByteWriter head;
   head.Write(static_cast<uint32_t>(model.categories.size()));
   for (const std::string& category : model.categories) head.Write(category);
-  head.Write(model.temperature);
-  head.Write(model.threshold);
+  head.Write(model.unknown_prior);
   head.Write(model.seed);
   head.Write(model.description);
   head.Write(static_cast<uint32_t>(model.cues.size()));
+  head.Write(static_cast<uint32_t>(model.deciders.size()));
   ByteWriter body;
   body.WriteSection("HEAD", head);
   for (const CueModel& cue : model.cues) {
@@ -104,16 +148,32 @@ std::vector<uint8_t> SerialiseModel(const Model& model) {
     part.WriteSection("SVM ", Pack(cue.classifier));
     body.WriteSection("CUE ", part);
   }
-  body.WriteSection("DECI", Pack(model.decider));
+  for (const Decider& decider : model.deciders) body.WriteSection("DECI", Pack(decider));
 
+  return body.bytes();
+}
+
+std::vector<uint8_t> WrapSections(const std::vector<uint8_t>& sections) {
+  uLongf size = compressBound(sections.size());
+  std::vector<uint8_t> packed(size);
+  compress2(packed.data(), &size, sections.data(), sections.size(), Z_DEFAULT_COMPRESSION);
+  packed.resize(size);
+  ByteWriter body;
+  body.Write(static_cast<uint64_t>(sections.size()));
   ByteWriter file;
   for (const char letter : kMagic) file.Write(letter);
   file.Write(kModelVersion);
-  file.Write(static_cast<uint64_t>(body.bytes().size()));
-  file.Write(Crc(body.bytes().data(), body.bytes().size()));
+  file.Write(static_cast<uint64_t>(body.bytes().size() + packed.size()));
+  std::vector<uint8_t> rest = body.bytes();
+  rest.insert(rest.end(), packed.begin(), packed.end());
+  file.Write(Crc(rest.data(), rest.size()));
   std::vector<uint8_t> bytes = file.bytes();
-  bytes.insert(bytes.end(), body.bytes().begin(), body.bytes().end());
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
   return bytes;
+}
+
+std::vector<uint8_t> SerialiseModel(const Model& model) {
+  return WrapSections(ModelSections(model));
 }
 
 Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& name) {
@@ -136,27 +196,30 @@ Result<Model> ParseModel(const std::vector<uint8_t>& bytes, const std::string& n
   if (Crc(bytes.data() + kHeader, size) != crc) {
     return Refuse(name, "damaged: its checksum does not match");
   }
+  const std::vector<uint8_t> sections = Inflate(bytes.data() + kHeader, size);
   Model model;
-  if (!Unpack(ByteReader(bytes.data() + kHeader, size), model)) {
+  if (!Unpack(ByteReader(sections.data(), sections.size()), model)) {
     return Refuse(name, "garbled: its sections do not follow the format");
   }
   if (Status status = Validate(model); !status) {
     return Refuse(name, "unusable: " + status.error().message);
   }
   for (CueModel& cue : model.cues) cue.classifier.Prepare();
-  model.decider.Prepare();
+  for (Decider& decider : model.deciders) {
+    decider.svm.Prepare();
+    decider.correction.Prepare();
+  }
   return model;
 }
 
 Result<Model> ReadModelFile(const std::string& path) {
-  constexpr uintmax_t kMostBytes = 64 << 20;
   std::error_code error;
   const uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
     return Error{path + ": cannot read the categories' model (" + error.message() +
                  "); give one with --model, or make one with beckon-train"};
   }
-  if (size > kMostBytes) return Refuse(path, "larger than any model (64 MB)");
+  if (size > kMostModelBytes) return Refuse(path, "larger than any model (64 MB)");
   std::vector<uint8_t> bytes(size);
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
@@ -165,6 +228,9 @@ Result<Model> ReadModelFile(const std::string& path) {
 }
 
 Status WriteModelFile(const std::string& path, const Model& model) {
+  if (Status status = Validate(model); !status) {
+    return Error{path + ": not written: " + status.error().message};
+  }
   const std::vector<uint8_t> bytes = SerialiseModel(model);
   const std::string part = path + ".part";
   {

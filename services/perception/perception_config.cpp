@@ -1,6 +1,8 @@
 // Reads beckon-perception's configuration and what it names.
 #include "services/perception/perception_config.h"
 
+#include <algorithm>
+
 #include "services/base/app.h"
 
 namespace beckon::perception {
@@ -70,6 +72,8 @@ Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides&
   ConfigTable categoriser = root.Section("categoriser");
   categoriser.Get("enabled", config.categories);
   categoriser.Get("model", config.model);
+  categoriser.Get("cues", config.cues);
+  categoriser.Get("unknown_prior", config.unknown_prior, -1, 1000);
   categoriser.Get("ask_at_or_below", config.ask_at_or_below, -1, 1);
   if (Status status = root.Finish(); !status) return status.error();
   if (!overrides.segmentation.empty()) {
@@ -79,6 +83,7 @@ Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides&
   }
   if (overrides.no_categories) config.categories = false;
   if (!overrides.model.empty()) config.model = overrides.model;
+  if (!overrides.cues.empty()) config.cues = overrides.cues;
   if (overrides.threads > 0) config.perceiver.threads = overrides.threads;
   return config;
 }
@@ -89,6 +94,12 @@ Result<std::optional<Categoriser>> LoadCategoriser(const PerceptionConfig& confi
   auto categoriser = Categoriser::Load(file);
   if (!categoriser) {
     return Error{categoriser.error().message + "; or go without by --no-categories"};
+  }
+  if (Status status = categoriser->UseCues(config.cues); !status) {
+    return Error{file + ": " + status.error().message};
+  }
+  if (config.unknown_prior >= 0) {
+    categoriser->set_unknown_prior(static_cast<float>(std::max(config.unknown_prior, 0.001)));
   }
   if (config.ask_at_or_below >= 0) {
     categoriser->set_threshold(static_cast<float>(config.ask_at_or_below));

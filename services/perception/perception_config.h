@@ -11,8 +11,11 @@ namespace beckon::perception {
 
 struct PerceptionConfig {
   PerceiverConfig perceiver;
-  bool categories = true;       // false: objects stay uncategorised
-  std::string model;            // file of beckon-train; empty: the one that ships
+  bool categories = true;    // false: objects stay uncategorised
+  std::string model;         // file of beckon-train; empty: the one that ships
+  std::string cues = "all";  // of the model's that have a say, as Categoriser::UseCues takes them
+  double unknown_prior =
+      -1;  // factor on the probability of "Unknown"; negative: as the model has it
   double ask_at_or_below = -1;  // confidence 0..1; negative: as the model has it
 };
 
@@ -20,6 +23,7 @@ struct PerceptionConfig {
 struct Overrides {
   std::string segmentation;  // empty: as configured
   std::string model;         // the same
+  std::string cues;          // the same
   bool no_categories = false;
   int threads = 0;  // 0: as configured
 };

@@ -20,6 +20,7 @@ double Sigmoid::Probability(double decision) const {
 }
 
 void SvmClassifier::Prepare() {
+  if (classes() == 0) return;
   floats_.resize(vectors.cols(), vectors.rows());
   for (int i = 0; i < vectors.rows(); ++i) {
     floats_.col(i) = ToFloats(vectors.row(i).data(), vectors.cols());

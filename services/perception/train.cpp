@@ -8,9 +8,6 @@
 
 #include "services/perception/bag_of_words.h"
 #include "services/perception/categoriser.h"
-#include "services/perception/categoriser_confidence.h"
-#include "services/perception/train_report.h"
-#include "services/perception/train_svm.h"
 
 namespace beckon::perception {
 namespace {
@@ -47,20 +44,51 @@ Status CheckPoints(const ObjectView& view) {
                " points with depth, found " + std::to_string(CountPoints(view))};
 }
 
+struct DeciderPlan {
+  std::string name;
+  std::vector<uint32_t> cues;
+  bool blend = false;
+};
+
+/// One over all cues, one over the dissertation's alone as it has it, and each cue by itself.
+std::vector<DeciderPlan> PlanDeciders(const Model& model) {
+  DeciderPlan all{"all cues", {}, true}, dissertation{"the dissertation's cues", {}, false};
+  std::vector<DeciderPlan> alone;
+  const auto& three = DissertationCues();
+  for (uint32_t c = 0; c < model.cues.size(); ++c) {
+    const std::string& name = model.cues[c].name;
+    all.cues.push_back(c);
+    if (std::find(three.begin(), three.end(), name) != three.end()) dissertation.cues.push_back(c);
+    alone.push_back({name, {c}, false});
+  }
+  std::vector<DeciderPlan> plans;
+  const bool has_three = dissertation.cues.size() == three.size();
+  if (!has_three || all.cues.size() > three.size()) plans.push_back(all);
+  if (all.cues.size() == 1) return plans;
+  if (has_three) plans.push_back(dissertation);
+  plans.insert(plans.end(), alone.begin(), alone.end());
+  return plans;
+}
+
 }  // namespace
 
 struct Trainer::State {
   TrainConfig config;
   std::mt19937 random;
-  std::vector<std::unique_ptr<const Cue>> cues = MakeCues();
+  std::vector<std::unique_ptr<const Cue>> cues;
   std::vector<std::vector<Descriptors>> samples;   // by cue, one entry a view
   std::vector<CueEncoder> encoders;                // by cue
-  std::vector<std::vector<Features>> features;     // by cue, one entry a view
+  std::vector<ViewFeatures> features;              // one entry a view
   std::vector<std::string> categories, instances;  // of each view
 
   Status CheckClasses(const std::set<std::string>& names) const;
   /// The views' labels and folds, without features.
   SvmTrainingSet LabelAndFold(const std::vector<std::string>& names) const;
+  /// The views that the cue sees; nothing where they are too few to hold any out.
+  std::optional<SvmTrainingSet> SeenBy(size_t cue, const SvmTrainingSet& all) const;
+  /// Adds the cue to the model and what it said to `by_cue`; false: stopped.
+  bool TrainCue(size_t cue, const SvmTrainingSet& all, const StepProgress& done,
+                std::vector<std::vector<std::vector<float>>>& by_cue, TrainOutcome& out);
 };
 
 Status Trainer::State::CheckClasses(const std::set<std::string>& names) const {
@@ -97,14 +125,22 @@ SvmTrainingSet Trainer::State::LabelAndFold(const std::vector<std::string>& name
   return set;
 }
 
-Trainer::Trainer(const TrainConfig& config) : state_(std::make_unique<State>()) {
-  state_->config = config;
-  state_->random.seed(static_cast<uint32_t>(config.seed ^ config.seed >> 32));
-  state_->samples.resize(state_->cues.size());
-  state_->features.resize(state_->cues.size());
-}
-
+Trainer::Trainer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Trainer::~Trainer() = default;
+Trainer::Trainer(Trainer&&) noexcept = default;
+
+Result<Trainer> Trainer::Make(const TrainConfig& config) {
+  auto state = std::make_unique<State>();
+  state->config = config;
+  state->random.seed(static_cast<uint32_t>(config.seed ^ config.seed >> 32));
+  std::vector<std::string> known;
+  for (const auto& cue : MakeCues()) known.push_back(cue->name());
+  const auto wanted = ParseCueNames(config.cues, known);
+  if (!wanted) return Error{"there is " + wanted.error().message};
+  for (const std::string& name : *wanted) state->cues.push_back(MakeCue(name));
+  state->samples.resize(state->cues.size());
+  return Trainer(std::move(state));
+}
 
 std::vector<size_t> Trainer::ChooseSamples(size_t count) {
   std::vector<size_t> order(count);
@@ -115,15 +151,20 @@ std::vector<size_t> Trainer::ChooseSamples(size_t count) {
   return order;
 }
 
-Status Trainer::SampleView(const ObjectView& view) {
-  if (Status status = CheckPoints(view); !status) return status;
+Result<ViewSample> Trainer::Sample(const ObjectView& view) const {
+  if (Status status = CheckPoints(view); !status) return status.error();
   const CueView prepared = MakeCueView(view);
-  for (size_t c = 0; c < state_->cues.size(); ++c) {
-    if (state_->cues[c]->encoding() == Encoding::kDense) continue;
-    state_->samples[c].push_back(
-        Thin(state_->cues[c]->Describe(prepared), state_->config.descriptors_per_view));
+  ViewSample sample;
+  for (const auto& cue : state_->cues) {
+    sample.emplace_back(0, cue->dimension());
+    if (cue->encoding() == Encoding::kDense || !cue->CanSee(prepared)) continue;
+    sample.back() = Thin(cue->Describe(prepared), state_->config.descriptors_per_view);
   }
-  return {};
+  return sample;
+}
+
+void Trainer::Add(ViewSample sample) {
+  for (size_t c = 0; c < sample.size(); ++c) state_->samples[c].push_back(std::move(sample[c]));
 }
 
 void Trainer::LearnEncoders() {
@@ -142,57 +183,98 @@ void Trainer::LearnEncoders() {
   state_->samples.clear();
 }
 
-Status Trainer::Add(const ObjectView& view, const std::string& category,
-                    const std::string& instance) {
-  if (Status status = CheckPoints(view); !status) return status;
+Result<ViewFeatures> Trainer::Describe(const ObjectView& view) const {
+  if (Status status = CheckPoints(view); !status) return status.error();
   const CueView prepared = MakeCueView(view);
+  ViewFeatures features;
   for (size_t c = 0; c < state_->cues.size(); ++c) {
     const Cue& cue = *state_->cues[c];
-    state_->features[c].push_back(state_->encoders[c].Encode(cue, cue.Describe(prepared)));
+    features.emplace_back();
+    if (!cue.CanSee(prepared)) continue;
+    features.back() = state_->encoders[c].Encode(cue, cue.Describe(prepared));
   }
-  state_->categories.push_back(category);
-  state_->instances.push_back(category + "/" + instance);
-  return {};
+  return features;
 }
 
-Result<TrainOutcome> Trainer::Finish(const std::function<void(const std::string&)>& progress) {
+void Trainer::Add(ViewFeatures features, const std::string& category, const std::string& instance) {
+  state_->features.push_back(std::move(features));
+  state_->categories.push_back(category);
+  state_->instances.push_back(category + "/" + instance);
+}
+
+std::optional<SvmTrainingSet> Trainer::State::SeenBy(size_t cue, const SvmTrainingSet& all) const {
+  SvmTrainingSet set;
+  set.classes = all.classes;
+  set.fold_count = all.fold_count;
+  std::vector<std::set<int>> folds(static_cast<size_t>(all.classes));
+  for (size_t i = 0; i < features.size(); ++i) {
+    if (!features[i][cue]) continue;
+    set.features.push_back(*features[i][cue]);
+    set.labels.push_back(all.labels[i]);
+    set.folds.push_back(all.folds[i]);
+    folds[static_cast<size_t>(all.labels[i])].insert(all.folds[i]);
+  }
+  for (const auto& of_class : folds) {
+    if (of_class.size() < 2) return std::nullopt;
+  }
+  return set;
+}
+
+bool Trainer::State::TrainCue(size_t cue, const SvmTrainingSet& all, const StepProgress& done,
+                              std::vector<std::vector<std::vector<float>>>& by_cue,
+                              TrainOutcome& out) {
+  const auto set = SeenBy(cue, all);
+  if (!set) {
+    out.notes.push_back("the cue " + cues[cue]->name() +
+                        " is left out: expected it to see two objects of each category, such as "
+                        "views with colour, found fewer");
+    return true;
+  }
+  auto trained = TrainSvm(*set, {config.cost, config.gamma_scale, config.threads}, done);
+  if (!trained) return false;
+  size_t next = 0;
+  for (size_t i = 0; i < features.size(); ++i) {
+    by_cue[i].emplace_back();
+    if (features[i][cue]) by_cue[i].back() = std::move(trained->out_of_fold[next++]);
+  }
+  out.model.cues.push_back(
+      {cues[cue]->name(), std::move(encoders[cue]), std::move(trained->classifier)});
+  return true;
+}
+
+Result<TrainOutcome> Trainer::Finish(const Watch& watch) {
   State& s = *state_;
   const std::set<std::string> names(s.categories.begin(), s.categories.end());
   if (Status status = s.CheckClasses(names); !status) return status.error();
+  const auto step = [&](const std::string& what) -> StepProgress {
+    if (!watch) return {};
+    return [&watch, what](size_t done, size_t total) { return watch(what, done, total); };
+  };
+  const Error stopped{"stopped on request; no model was written"};
 
   TrainOutcome out;
   out.model.categories.assign(names.begin(), names.end());
   out.model.seed = s.config.seed;
-  SvmTrainingSet set = s.LabelAndFold(out.model.categories);
-  out.held_out.resize(s.categories.size());
+  out.model.unknown_prior = static_cast<float>(s.config.unknown_prior);
+  const SvmTrainingSet set = s.LabelAndFold(out.model.categories);
+  std::vector<std::vector<std::vector<float>>> by_cue(s.categories.size());
   for (size_t c = 0; c < s.cues.size(); ++c) {
-    progress("training the machines of " + s.cues[c]->name());
-    set.features = std::move(s.features[c]);
-    TrainedSvm trained = TrainSvm(set, {s.config.cost, s.config.gamma_scale});
-    out.model.cues.push_back(
-        {s.cues[c]->name(), std::move(s.encoders[c]), std::move(trained.classifier)});
-    for (size_t i = 0; i < out.held_out.size(); ++i) {
-      out.held_out[i].by_cue.push_back(std::move(trained.out_of_fold[i]));
+    if (!s.TrainCue(c, set, step("training the machines of " + s.cues[c]->name()), by_cue, out)) {
+      return stopped;
     }
   }
-  progress("training the decision");
-  set.features.clear();
-  for (const auto& held_out : out.held_out) set.features.push_back(StackFeatures(held_out.by_cue));
-  TrainedSvm decider = TrainSvm(set, {s.config.decider_cost, s.config.decider_gamma_scale});
-  out.model.decider = std::move(decider.classifier);
-  std::vector<std::vector<float>> blended;
-  for (size_t i = 0; i < out.held_out.size(); ++i) {
-    blended.push_back(Blend(decider.out_of_fold[i], out.held_out[i].by_cue));
+  if (out.model.cues.empty()) {
+    return Error{
+        "none of the cues sees two objects of each category; give views with colour, or "
+        "other cues with --cues"};
   }
-  out.model.temperature =
-      static_cast<float>(s.config.caution) * FitTemperature(blended, set.labels);
-  for (size_t i = 0; i < out.held_out.size(); ++i) {
-    HeldOutPrediction& held_out = out.held_out[i];
-    held_out.label = set.labels[i];
-    held_out.probabilities = ApplyTemperature(blended[i], out.model.temperature);
-    held_out.confidence = RenyiConfidence(held_out.probabilities);
+  for (const DeciderPlan& plan : PlanDeciders(out.model)) {
+    auto trained = TrainDecider(s.config, out.model.categories, plan.cues, plan.blend, by_cue, set,
+                                step("training the decision over " + plan.name));
+    if (!trained) return stopped;
+    out.model.deciders.push_back(std::move(trained->decider));
+    out.held_out.push_back(std::move(trained->held_out));
   }
-  out.model.threshold = ChooseThreshold(Judge(out.held_out), s.config.target_accuracy);
   return out;
 }
 

@@ -6,17 +6,21 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/perception/model.h"
+#include "services/perception/object_view.h"
+#include "services/perception/train_svm.h"
 
 namespace beckon::perception {
 
 struct TrainConfig {
   uint64_t seed = 1;
-  int folds = 5;         // of the cross-validation; an instance's views share a fold
-  int sift_words = 150;  // sizes of the vocabularies
+  std::string cues = "all";  // that the model holds, as ParseCueNames takes them
+  int folds = 5;             // of the cross-validation; an instance's views share a fold
+  int sift_words = 150;      // sizes of the vocabularies
   int hog_words = 150;
   int fpfh_words = 80;
   int vocabulary_views = 400;     // views, drawn at random, that vocabularies are learnt from
@@ -26,45 +30,75 @@ struct TrainConfig {
   double gamma_scale = 1;   // their gamma times the median squared distance
   double decider_cost = 2;  // of the second stage
   double decider_gamma_scale = 0.5;
-  double caution = 1.5;  // factor on the fitted temperature: the world is harder than a rendering
+  double unknown_prior = 1;  // Model::unknown_prior
+  int threads = 1;           // nothing depends on it but the time
+  double caution =
+      1;  // factor on the fitted temperature; above 1: less sure than held-out views say
   double target_accuracy = 0.98;  // of what is answered without asking; decides the threshold
 };
 
 /// What cross-validation said of one view.
 struct HeldOutPrediction {
   int label = 0;                     // index into Model::categories
-  std::vector<float> probabilities;  // calibrated
+  std::vector<float> probabilities;  // calibrated; empty where no cue saw anything
   float confidence = 0;
-  std::vector<std::vector<float>> by_cue;
 };
 
 struct TrainOutcome {
   Model model;
-  std::vector<HeldOutPrediction> held_out;  // in the order of Add
+  std::vector<std::vector<HeldOutPrediction>> held_out;  // by decider, in the order of Add
+  std::vector<std::string> notes;  // what a person should know: cues left out, and why
 };
 
+/// Told what is being done and how much of it; false: stop.
+using Watch = std::function<bool(const std::string& step, size_t done, size_t total)>;
+
+/// What the vocabularies are learnt from, of one view: descriptors by cue.
+using ViewSample = std::vector<Descriptors>;
+/// What the machines are trained with, of one view: by cue, nothing where the cue cannot see it.
+using ViewFeatures = std::vector<std::optional<Features>>;
+
 /// Takes the views twice, one at a time, so that they need not fit into memory together: first
-/// those it learns vocabularies from, then all.
+/// those it learns vocabularies from, then all. Sample and Describe may run in several threads;
+/// what they gave is added in an order of the caller's, which decides the model.
 class Trainer {
  public:
-  explicit Trainer(const TrainConfig& config);
+  /// Fails where the configuration names a cue that is not there.
+  static Result<Trainer> Make(const TrainConfig& config);
   ~Trainer();
+  Trainer(Trainer&&) noexcept;
 
-  /// Indices of the views, of `count`, that SampleView wants to see.
+  /// Indices of the views, of `count`, that Sample wants to see.
   std::vector<size_t> ChooseSamples(size_t count);
   /// Views with fewer than Categoriser::kMinPoints points are refused.
-  Status SampleView(const ObjectView& view);
-  /// Call between the last SampleView and the first Add.
+  Result<ViewSample> Sample(const ObjectView& view) const;
+  void Add(ViewSample sample);
+  /// Call between the last Sample and the first Describe.
   void LearnEncoders();
-  Status Add(const ObjectView& view, const std::string& category, const std::string& instance);
-  /// `progress` is told what is being done. Fails where there are fewer than two categories, or
-  /// fewer than two instances of one: nothing could be held out.
-  Result<TrainOutcome> Finish(const std::function<void(const std::string&)>& progress);
+  /// The same of the view's features.
+  Result<ViewFeatures> Describe(const ObjectView& view) const;
+  void Add(ViewFeatures features, const std::string& category, const std::string& instance);
+  /// Fails where there are fewer than two categories, or fewer than two instances of one: nothing
+  /// could be held out; and where `watch` (may be empty) wants to stop.
+  Result<TrainOutcome> Finish(const Watch& watch);
 
  private:
   struct State;
+  explicit Trainer(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// The decider of these cues of the model, with what it said of each view held out. `by_cue`: of
+/// each view, of each of all the model's cues; `set`: labels and folds of the views.
+struct TrainedDecider {
+  Decider decider;
+  std::vector<HeldOutPrediction> held_out;
+};
+std::optional<TrainedDecider> TrainDecider(
+    const TrainConfig& config, const std::vector<std::string>& categories,
+    std::vector<uint32_t> cues, bool blend,
+    const std::vector<std::vector<std::vector<float>>>& by_cue, const SvmTrainingSet& set,
+    const StepProgress& done);
 
 /// The fold of each instance: instances of a category are dealt out evenly, in random order.
 std::map<std::string, int> DealFolds(const std::map<std::string, std::string>& category_of_instance,

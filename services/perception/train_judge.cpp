@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "services/perception/categoriser.h"
+#include "services/perception/model.h"
 #include "services/perception/train_data.h"
+#include "services/perception/train_figures.h"
 #include "services/perception/train_program.h"
-#include "services/perception/train_report.h"
 
 namespace beckon::perception {
 namespace {
@@ -17,7 +18,7 @@ std::string Line(const ViewRecord& record, const Categorisation& result) {
   nlohmann::ordered_json line;
   line["file"] = record.file;
   line["category"] = record.category;
-  line["predicted"] = result.probabilities.empty() ? "Unknown" : result.probabilities[0].first;
+  line["predicted"] = result.probabilities.empty() ? kUnknown : result.probabilities[0].first;
   line["probabilities"] = nlohmann::ordered_json::object();
   for (const auto& [category, p] : result.probabilities) line["probabilities"][category] = p;
   line["confidence"] = result.confidence;
@@ -26,20 +27,23 @@ std::string Line(const ViewRecord& record, const Categorisation& result) {
   return line.dump();
 }
 
-/// Where in `categories` a name is; a name the model does not know comes after all.
-int IndexOf(const std::vector<std::string>& categories, const std::string& name) {
-  return static_cast<int>(std::find(categories.begin(), categories.end(), name) -
-                          categories.begin());
+/// Where in `names` a name is; a name that is not there counts as Unknown, which is.
+int IndexOf(const std::vector<std::string>& names, const std::string& name) {
+  auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) at = std::find(names.begin(), names.end(), kUnknown);
+  return static_cast<int>(at - names.begin());
 }
 
-Judgement JudgeOne(const Categorisation& result, const std::vector<std::string>& categories,
+Judgement JudgeOne(const Categorisation& result, const std::vector<std::string>& names,
                    const std::string& label) {
   Judgement j;
-  j.label = IndexOf(categories, label);
-  j.predicted = static_cast<int>(categories.size());
+  j.label = IndexOf(names, label);
+  j.predicted = IndexOf(names, kUnknown);
   j.confidence = result.confidence;
-  if (!result.probabilities.empty())
-    j.predicted = IndexOf(categories, result.probabilities[0].first);
+  if (!result.probabilities.empty()) {
+    j.predicted = IndexOf(names, result.probabilities[0].first);
+    j.probability = result.probabilities[0].second;
+  }
   const size_t shown = std::min<size_t>(3, result.probabilities.size());
   for (size_t i = 0; i < shown; ++i) {
     if (result.probabilities[i].first == label) j.in_top_3 = true;
@@ -47,37 +51,53 @@ Judgement JudgeOne(const Categorisation& result, const std::vector<std::string>&
   return j;
 }
 
+/// The model's categories, and "Unknown" where they lack it: what IndexOf gives for other names.
+std::vector<std::string> NamesWithUnknown(const Categoriser& categoriser) {
+  std::vector<std::string> names = categoriser.categories();
+  if (std::find(names.begin(), names.end(), kUnknown) == names.end()) names.push_back(kUnknown);
+  return names;
+}
+
 struct Tally {
   std::vector<Judgement> judgements;
   std::vector<double> times_ms;
-  std::vector<double> cue_ms;  // sums, by cue
-  int skipped = 0, asked = 0;
+  std::map<std::string, double> cue_ms;  // sums
+  int skipped = 0, unanswered = 0;
 };
 
-void Print(Tally& tally, const Categoriser& categoriser, const std::vector<std::string>& cues) {
-  std::vector<std::string> names = categoriser.categories();
-  names.push_back("Unknown");
+void Print(Tally& tally, const Categoriser& categoriser, const std::vector<std::string>& names) {
   std::sort(tally.times_ms.begin(), tally.times_ms.end());
   const auto views = static_cast<double>(tally.judgements.size());
-  std::printf("%zu views, %d skipped\n", tally.judgements.size(), tally.skipped);
   std::printf(
-      "accuracy %.3f, macro recall %.3f, top 3 %.3f, surest 70 %% %.3f, asks about %.1f %%\n",
-      Accuracy(tally.judgements), MacroRecall(tally.judgements, names.size()),
-      Top3Accuracy(tally.judgements), SurestAccuracy(tally.judgements, 0.7),
-      100 * tally.asked / views);
+      "%zu views, %d skipped, %d without an answer\n%s\n", tally.judgements.size(), tally.skipped,
+      tally.unanswered,
+      Text(FiguresOf(tally.judgements, categoriser.categories(), categoriser.threshold())).c_str());
   std::printf("time per object: median %.1f ms, longest %.1f ms (",
               tally.times_ms[tally.times_ms.size() / 2], tally.times_ms.back());
-  for (size_t i = 0; i < cues.size(); ++i) {
-    std::printf("%s%s %.1f", i > 0 ? ", " : "", cues[i].c_str(), tally.cue_ms[i] / views);
+  const char* comma = "";
+  for (const auto& [cue, ms] : tally.cue_ms) {
+    std::printf("%s%s %.1f", comma, cue.c_str(), ms / views);
+    comma = ", ";
   }
   std::printf(" on average)\n\n%s\n%s", ConfusionTable(tally.judgements, names).c_str(),
-              RiskCoverageTable(tally.judgements, categoriser.threshold()).c_str());
+              RiskCoverageTable(OfKnown(tally.judgements, categoriser.categories()),
+                                categoriser.threshold())
+                  .c_str());
+}
+
+Result<Categoriser> LoadForTest(const TrainOptions& options) {
+  Result<Categoriser> categoriser = Categoriser::Load(options.model);
+  if (!categoriser || options.cues.empty()) return categoriser;
+  if (Status status = categoriser->UseCues(options.cues); !status) {
+    return Error{options.model + ": " + status.error().message};
+  }
+  return categoriser;
 }
 
 }  // namespace
 
 Status RunTest(const TrainOptions& options) {
-  const auto categoriser = Categoriser::Load(options.model);
+  const auto categoriser = LoadForTest(options);
   if (!categoriser) return categoriser.error();
   const auto records = ListViews(options.test);
   if (!records) return records.error();
@@ -87,9 +107,10 @@ Status RunTest(const TrainOptions& options) {
     if (!lines)
       return Error{options.jsonl + ": cannot be written; expected a file in a folder that exists"};
   }
+  const std::vector<std::string> names = NamesWithUnknown(*categoriser);
   Tally tally;
-  std::vector<std::string> cues;
   for (const ViewRecord& record : *records) {
+    if (options.stopped && options.stopped()) return Error{"stopped on request"};
     const Result<LoadedView> view = LoadView(record);
     if (!view) {
       std::fprintf(stderr, "skipped %s: %s\n", record.file.c_str(), view.error().message.c_str());
@@ -97,23 +118,20 @@ Status RunTest(const TrainOptions& options) {
       continue;
     }
     const Categorisation result = categoriser->Categorise(view->view());
+    if (!result.reason.empty()) {
+      std::fprintf(stderr, "%s: %s\n", record.file.c_str(), result.reason.c_str());
+      ++tally.unanswered;
+    }
     if (lines.is_open()) lines << Line(record, result) << '\n';
-    tally.judgements.push_back(JudgeOne(result, categoriser->categories(), record.category));
+    tally.judgements.push_back(JudgeOne(result, names, record.category));
     tally.times_ms.push_back(result.milliseconds);
-    tally.asked += result.ask_user;
-    tally.cue_ms.resize(std::max(tally.cue_ms.size(), result.cues.size()));
-    if (cues.empty())
-      for (const auto& cue : result.cues) cues.push_back(cue.name);
-    for (size_t i = 0; i < result.cues.size(); ++i) tally.cue_ms[i] += result.cues[i].milliseconds;
+    for (const auto& cue : result.cues) tally.cue_ms[cue.name] += cue.milliseconds;
   }
   if (lines.is_open() && !lines.flush())
     return Error{options.jsonl + ": could not be written whole"};
   if (tally.judgements.empty()) return Error{options.test + ": no view of it could be read"};
-  Print(tally, *categoriser, cues);
-  if (options.picture.empty()) return {};
-  std::vector<std::string> names = categoriser->categories();
-  names.push_back("Unknown");
-  return DrawConfusions(tally.judgements, names, options.picture);
+  Print(tally, *categoriser, names);
+  return DrawPictures(options, tally.judgements, names, categoriser->threshold());
 }
 
 }  // namespace beckon::perception

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "services/perception/cue_interface.h"
+#include "services/perception/train_figures.h"
+
 namespace beckon::perception {
 namespace {
 
@@ -28,10 +31,12 @@ bool Right(const Judgement& j) { return j.label == j.predicted; }
 std::vector<Judgement> Judge(const std::vector<HeldOutPrediction>& predictions) {
   std::vector<Judgement> out;
   for (const HeldOutPrediction& p : predictions) {
+    if (p.probabilities.empty()) continue;
     Judgement j;
     j.label = p.label;
     j.predicted = Best(p.probabilities);
     j.confidence = p.confidence;
+    j.probability = p.probabilities[static_cast<size_t>(j.predicted)];
     const float own = p.probabilities[static_cast<size_t>(p.label)];
     j.in_top_3 = std::count_if(p.probabilities.begin(), p.probabilities.end(),
                                [own](float other) { return other > own; }) < 3;
@@ -135,19 +140,31 @@ std::string RiskCoverageTable(const std::vector<Judgement>& judgements, float ch
   return out;
 }
 
-std::string CueTable(const TrainOutcome& outcome) {
-  const size_t k = outcome.model.categories.size();
-  std::string out = "cue          accuracy  macro recall  top 3\n";
-  const auto row = [&](const std::string& name, const std::vector<Judgement>& judgements) {
-    out += Format("%-12s %8.3f  %12.3f  %5.3f\n", name.c_str(), Accuracy(judgements),
-                  MacroRecall(judgements, k), Top3Accuracy(judgements));
-  };
-  for (size_t c = 0; c < outcome.model.cues.size(); ++c) {
-    std::vector<HeldOutPrediction> alone = outcome.held_out;
-    for (HeldOutPrediction& p : alone) p.probabilities = p.by_cue[c];
-    row(outcome.model.cues[c].name, Judge(alone));
+std::string DeciderName(const Model& model, const Decider& decider) {
+  std::string names;
+  size_t of_dissertation = 0;
+  const auto& three = DissertationCues();
+  for (const uint32_t c : decider.cues) {
+    names += (names.empty() ? "" : ",") + model.cues[c].name;
+    of_dissertation +=
+        static_cast<size_t>(std::count(three.begin(), three.end(), model.cues[c].name));
   }
-  row("all", Judge(outcome.held_out));
+  if (!decider.blend && decider.cues.size() == 3 && of_dissertation == 3) return "dissertation";
+  return decider.cues.size() > 1 && decider.cues.size() == model.cues.size() ? "all" : names;
+}
+
+std::string CueTable(const TrainOutcome& outcome) {
+  std::string out =
+      "cues          accuracy  macro recall  top 3  surest 70 %    ECE      T   asks\n";
+  for (size_t d = 0; d < outcome.model.deciders.size(); ++d) {
+    const Decider& decider = outcome.model.deciders[d];
+    const Figures f =
+        FiguresOf(Judge(outcome.held_out[d]), outcome.model.categories, decider.threshold);
+    out += Format("%-13s %8.3f  %12.3f  %5.3f  %11.3f  %5.3f  %5.3f  %4.1f%%\n",
+                  DeciderName(outcome.model, decider).c_str(), f.accuracy, f.macro_recall, f.top_3,
+                  f.surest_70, f.calibration_error, static_cast<double>(decider.threshold),
+                  100 * f.asked);
+  }
   return out;
 }
 

@@ -14,8 +14,10 @@ struct Judgement {
   int predicted = 0;
   bool in_top_3 = false;
   float confidence = 0;
+  float probability = 0;  // of `predicted`
 };
 
+/// Without the views that no cue saw.
 std::vector<Judgement> Judge(const std::vector<HeldOutPrediction>& predictions);
 
 double Accuracy(const std::vector<Judgement>& judgements);
@@ -36,11 +38,18 @@ std::string ConfusionTable(const std::vector<Judgement>& judgements,
                            const std::vector<std::string>& categories);
 /// Accuracy of what is answered without asking over T; `chosen` is marked.
 std::string RiskCoverageTable(const std::vector<Judgement>& judgements, float chosen);
-/// Accuracy of each cue alone and of the decision.
+/// What each of the model's deciders is worth held out: all cues, the dissertation's, each alone.
 std::string CueTable(const TrainOutcome& outcome);
+/// "all", "dissertation" or the names of a decider's cues.
+std::string DeciderName(const Model& model, const Decider& decider);
 
 /// The confusion matrix as a PNG.
 Status DrawConfusions(const std::vector<Judgement>& judgements,
                       const std::vector<std::string>& categories, const std::string& path);
+/// Accuracy of the surest share of the views over that share; `threshold` is marked.
+Status DrawRiskCoverage(const std::vector<Judgement>& judgements, float threshold,
+                        const std::string& path);
+/// How often what is said with a probability is right, over that probability.
+Status DrawReliability(const std::vector<Judgement>& judgements, const std::string& path);
 
 }  // namespace beckon::perception

@@ -138,7 +138,8 @@ SvmClassifier Assemble(const std::vector<Machine>& machines,
 
 }  // namespace
 
-TrainedSvm TrainSvm(const SvmTrainingSet& set, const SvmTrainingConfig& config) {
+std::optional<TrainedSvm> TrainSvm(const SvmTrainingSet& set, const SvmTrainingConfig& config,
+                                   const StepProgress& done) {
   svm_set_print_string_function([](const char*) {});
   Kernel kernel = SquaredDistances(set.features);
   const float gamma = static_cast<float>(config.gamma_scale) / MedianOf(kernel);
@@ -146,23 +147,25 @@ TrainedSvm TrainSvm(const SvmTrainingSet& set, const SvmTrainingConfig& config) 
   KernelRows rows(kernel);
   const int n = static_cast<int>(set.features.size());
 
-  // Fold -1 is everything.
-  std::vector<Machine> final_machines;
+  // Row 0 of the tasks is everything, row f + 1 everything but fold f.
+  std::vector<Machine> final_machines(static_cast<size_t>(set.classes));
   Eigen::MatrixXf decisions(set.classes, n);
-  for (int fold = -1; fold < set.fold_count; ++fold) {
+  const auto train = [&](size_t task) {
+    const int fold = static_cast<int>(task) / set.classes - 1;
+    const int c = static_cast<int>(task) % set.classes;
     std::vector<int> inside;
     for (int i = 0; i < n; ++i) {
       if (set.folds[static_cast<size_t>(i)] != fold) inside.push_back(i);
     }
-    for (int c = 0; c < set.classes; ++c) {
-      Machine machine = TrainOne(rows, inside, set.labels, c, config.cost);
-      for (int i = 0; i < n; ++i) {
-        if (set.folds[static_cast<size_t>(i)] != fold) continue;
-        decisions(c, i) = static_cast<float>(Decide(machine, kernel, i));
-      }
-      if (fold < 0) final_machines.push_back(std::move(machine));
+    Machine machine = TrainOne(rows, inside, set.labels, c, config.cost);
+    for (int i = 0; i < n; ++i) {
+      if (set.folds[static_cast<size_t>(i)] != fold) continue;
+      decisions(c, i) = static_cast<float>(Decide(machine, kernel, i));
     }
-  }
+    if (fold < 0) final_machines[static_cast<size_t>(c)] = std::move(machine);
+  };
+  const auto tasks = static_cast<size_t>((set.fold_count + 1) * set.classes);
+  if (!ParallelFor(tasks, config.threads, train, done)) return std::nullopt;
 
   TrainedSvm out;
   out.classifier = Assemble(final_machines, set.features);

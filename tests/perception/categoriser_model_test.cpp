@@ -68,6 +68,40 @@ TEST(ModelFile, SurvivesAlteredContentWithARightChecksum) {
   }
 }
 
+TEST(ModelFile, SurvivesAlteredSections) {
+  const std::vector<uint8_t> sections = ModelSections(TrainedOnShapes().model);
+  ASSERT_EQ(WrapSections(sections), Bytes());
+  std::mt19937 random(2);
+  const ShapeView view = RenderCategory("Box", random);
+  int refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::vector<uint8_t> altered = sections;
+    altered[i < 300 ? static_cast<size_t>(i) : random() % altered.size()] =
+        static_cast<uint8_t>(random());
+    const Result<Model> model = ParseModel(WrapSections(altered), "m");
+    if (model) {  // a number is another number: of no worth, but of no harm either
+      EXPECT_FALSE(Categoriser(*model).Categorise(view.view()).probabilities.empty());
+      continue;
+    }
+    ++refused;
+    EXPECT_NE(model.error().message.find("rebuild"), std::string::npos);
+  }
+  EXPECT_GT(refused, 50);
+  for (size_t length = 0; length < sections.size(); length += length < 200 ? 1 : 997) {
+    const std::vector<uint8_t> part(sections.begin(),
+                                    sections.begin() + static_cast<int64_t>(length));
+    EXPECT_FALSE(ParseModel(WrapSections(part), "m")) << length;
+  }
+}
+
+TEST(ModelFile, RefusesToWriteWhatItWouldNotRead) {
+  Model model = TrainedOnShapes().model;
+  model.deciders.front().temperature = 0;
+  const std::string path = testing::TempDir() + "categoriser_model_test_refused.model";
+  EXPECT_FALSE(WriteModelFile(path, model));
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(ModelFile, NamesAnotherVersion) {
   std::vector<uint8_t> bytes = Bytes();
   bytes[8] = 9;
@@ -99,6 +133,24 @@ TEST(Model, RefusesACueThatMeasuresOtherThings) {
   model = TrainedOnShapes().model;
   model.cues[1].classifier.coefficients(0, 0) = NAN;
   EXPECT_FALSE(Validate(model));
+}
+
+TEST(Model, RefusesADeciderThatDoesNotFit) {
+  const Model good = TrainedOnShapes().model;
+  ASSERT_TRUE(Validate(good));
+  const auto refuses = [&good](auto spoil) {
+    Model model = good;
+    spoil(model);
+    return !Validate(model);
+  };
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders.clear(); }));
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders[0].cues.pop_back(); }));
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders[1].cues.back() = 9; }));
+  EXPECT_TRUE(refuses([](Model& m) { std::swap(m.deciders[1].cues[0], m.deciders[1].cues[1]); }));
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders[0].svm = {}; }));
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders[0].threshold = NAN; }));
+  EXPECT_TRUE(refuses([](Model& m) { m.deciders[0].correction = m.deciders[1].svm; }));
+  EXPECT_TRUE(refuses([](Model& m) { m.unknown_prior = 0; }));
 }
 
 }  // namespace

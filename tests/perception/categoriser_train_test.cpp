@@ -4,23 +4,21 @@
 #include <gmock/gmock.h>
 #include <libsvm/svm.h>
 
-#include <filesystem>
 #include <fstream>
 #include <set>
 
-#include "services/base/cloud_file.h"
 #include "services/perception/bag_of_words.h"
 #include "services/perception/model_file.h"
 #include "services/perception/train_data.h"
 #include "services/perception/train_program.h"
 #include "services/perception/train_report.h"
 #include "services/perception/train_svm.h"
+#include "tests/perception/categoriser_folder.h"
 #include "tests/perception/categoriser_trained.h"
 
 namespace beckon::perception {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 SvmTrainingSet ToySet() {
@@ -72,7 +70,7 @@ double LibsvmDecision(const SvmTrainingSet& set, double gamma, double cost, cons
 
 TEST(Svm, DecidesAsLibsvmDoes) {
   const SvmTrainingSet set = ToySet();
-  const TrainedSvm trained = TrainSvm(set, {.cost = 5, .gamma_scale = 1});
+  const TrainedSvm trained = *TrainSvm(set, {.cost = 5, .gamma_scale = 1});
   for (size_t i = 0; i < 20; ++i) {
     const double expected =
         LibsvmDecision(set, static_cast<double>(trained.classifier.gamma), 5, set.features[i]);
@@ -82,7 +80,7 @@ TEST(Svm, DecidesAsLibsvmDoes) {
 
 TEST(Svm, GivesProbabilitiesThatFavourTheTruth) {
   const SvmTrainingSet set = ToySet();
-  const TrainedSvm trained = TrainSvm(set, {.cost = 5, .gamma_scale = 1});
+  const TrainedSvm trained = *TrainSvm(set, {.cost = 5, .gamma_scale = 1});
   int right = 0;
   for (size_t i = 0; i < set.labels.size(); ++i) {
     const auto& p = trained.out_of_fold[i];
@@ -158,22 +156,14 @@ TEST(Training, RefusesOneCategoryAndOneInstance) {
   std::mt19937 random(2);
   const ShapeView a = RenderCategory("Box", random), b = RenderCategory("Can", random);
   for (const bool second_category : {false, true}) {
-    Trainer trainer(SmallTraining());
-    ASSERT_TRUE(trainer.SampleView(a.view()));
-    trainer.LearnEncoders();
-    ASSERT_TRUE(trainer.Add(a.view(), "Box", "1"));
-    ASSERT_TRUE(trainer.Add(a.view(), "Box", "2"));
-    if (second_category) {
-      ASSERT_TRUE(trainer.Add(b.view(), "Can", "1"));
-    }
-    const auto outcome = trainer.Finish([](const std::string&) {});
+    std::vector<LabelledView> views = {{a, "Box", "1"}, {a, "Box", "2"}};
+    if (second_category) views.push_back({b, "Can", "1"});
+    const auto outcome = TrainOn(SmallTraining(), views);
     ASSERT_FALSE(outcome);
     EXPECT_THAT(outcome.error().message,
                 HasSubstr(second_category ? "found one of Can" : "found only Box"));
   }
-  Trainer empty(SmallTraining());
-  empty.LearnEncoders();
-  EXPECT_FALSE(empty.Finish([](const std::string&) {}));
+  EXPECT_FALSE(TrainOn(SmallTraining(), {}));
 }
 
 TEST(Report, ChoosesTheThresholdThatMeetsTheTarget) {
@@ -189,37 +179,6 @@ TEST(Report, ChoosesTheThresholdThatMeetsTheTarget) {
   EXPECT_NEAR(Accuracy(judgements), 0.75, 1e-9);
   EXPECT_NEAR(MacroRecall(judgements, 2), 0.75, 1e-9);
 }
-
-/// A folder of views that is removed afterwards.
-class TrainFolder : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) /
-        (std::string("beckon_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void Write(const std::string& file, const std::string& category, uint32_t seed) {
-    std::mt19937 random(seed);
-    const ShapeView view = RenderCategory(category, random);
-    Cloud cloud;
-    for (const uint32_t pixel : view.pixels) {
-      const int u = static_cast<int>(pixel) % view.image.width;
-      const int v = static_cast<int>(pixel) / view.image.width;
-      cloud.points.push_back(view.image.Point(u, v).cast<float>());
-      cloud.colours.push_back(view.image.colour[pixel]);
-    }
-    cloud.width = static_cast<int>(cloud.points.size());
-    const fs::path path = folder_ / file;
-    fs::create_directories(path.parent_path());
-    ASSERT_TRUE(WritePcdFile(path.string(), cloud));
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(TrainFolder, NamesInstancesByManifestFolderOrFileName) {
   Write("Box/a__x_0.pcd", "Box", 1);

@@ -20,23 +20,44 @@ inline TrainConfig SmallTraining() {
   return config;
 }
 
-inline Result<TrainOutcome> TrainOnShapes(const TrainConfig& config, int instances = 8) {
-  const std::vector<std::string> categories = {"Bowl", "Box", "Can"};
-  std::vector<ShapeView> views;
-  std::mt19937 random(11);
+/// One view, known by category and instance.
+struct LabelledView {
+  ShapeView shape;
+  std::string category, instance;
+};
+
+inline std::vector<LabelledView> RenderViews(const std::vector<std::string>& categories,
+                                             int instances, uint32_t seed) {
+  std::vector<LabelledView> views;
+  std::mt19937 random(seed);
   for (const std::string& category : categories) {
-    for (int i = 0; i < instances; ++i) views.push_back(RenderCategory(category, random));
+    for (int i = 0; i < instances; ++i) {
+      views.push_back({RenderCategory(category, random), category, std::to_string(i)});
+    }
   }
-  Trainer trainer(config);
-  for (const size_t i : trainer.ChooseSamples(views.size())) {
-    EXPECT_TRUE(trainer.SampleView(views[i].view()));
+  return views;
+}
+
+inline Result<TrainOutcome> TrainOn(const TrainConfig& config,
+                                    const std::vector<LabelledView>& views) {
+  Result<Trainer> trainer = Trainer::Make(config);
+  if (!trainer) return trainer.error();
+  for (const size_t i : trainer->ChooseSamples(views.size())) {
+    auto sample = trainer->Sample(views[i].shape.view());
+    if (!sample) return sample.error();
+    trainer->Add(*std::move(sample));
   }
-  trainer.LearnEncoders();
-  for (size_t i = 0; i < views.size(); ++i) {
-    const size_t of = static_cast<size_t>(instances);
-    EXPECT_TRUE(trainer.Add(views[i].view(), categories[i / of], std::to_string(i % of)));
+  trainer->LearnEncoders();
+  for (const LabelledView& view : views) {
+    auto features = trainer->Describe(view.shape.view());
+    if (!features) return features.error();
+    trainer->Add(*std::move(features), view.category, view.instance);
   }
-  return trainer.Finish([](const std::string&) {});
+  return trainer->Finish({});
+}
+
+inline Result<TrainOutcome> TrainOnShapes(const TrainConfig& config, int instances = 8) {
+  return TrainOn(config, RenderViews({"Bowl", "Box", "Can"}, instances, 11));
 }
 
 inline const TrainOutcome& TrainedOnShapes() {

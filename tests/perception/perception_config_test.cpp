@@ -58,6 +58,8 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
   EXPECT_EQ(read->categories, defaults.categories);
   EXPECT_EQ(read->model, defaults.model);
   EXPECT_EQ(read->ask_at_or_below, defaults.ask_at_or_below);
+  EXPECT_EQ(read->cues, defaults.cues);
+  EXPECT_EQ(read->unknown_prior, defaults.unknown_prior);
 }
 
 TEST(PerceptionConfig, RefusesWhatIsWrong) {
@@ -81,6 +83,26 @@ TEST(PerceptionConfig, TheCommandLineGoesOverTheFile) {
   EXPECT_EQ(read->model, "b");
   EXPECT_FALSE(read->categories);
   EXPECT_FALSE(Read("", {.segmentation = "magic"}));
+}
+
+TEST(PerceptionConfig, ChoosesTheCuesThatHaveASay) {
+  const std::string model = BECKON_SOURCE_DIR "/services/perception/categories.model";
+  const auto read = Read("[categoriser]\ncues = \"shape\"\nunknown_prior = 3.0",
+                         {.model = model, .cues = "dissertation"});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->cues, "dissertation");
+  PerceptionConfig plain;
+  plain.model = model;
+  const auto all = LoadCategoriser(plain), some = LoadCategoriser(*read);
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_TRUE(some) << some.error().message;
+  EXPECT_NE((*all)->threshold(), (*some)->threshold());
+  EXPECT_EQ((*some)->unknown_prior(), 3);
+  PerceptionConfig wrong = plain;
+  wrong.cues = "smell";
+  const auto refused = LoadCategoriser(wrong);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("smell"));
 }
 
 TEST(PerceptionConfig, AMissingModelIsClear) {

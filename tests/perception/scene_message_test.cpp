@@ -80,6 +80,23 @@ TEST(SceneMessage, LeavesOutWhatSpansMoreThanTheMessageCanSay) {
   EXPECT_TRUE(Codec<msg::Scene>::Encode(scene));
 }
 
+TEST(SceneMessage, TellsSurelyUnknownObjectsWithoutAQuestion) {
+  const RgbdImage image = ThreeBoxes().Render();
+  Categorisation unknown;
+  unknown.probabilities = {{msg::kUnknownCategory, 0.95F}, {"Box", 0.05F}};
+  unknown.confidence = 0.9F;
+  unknown.ask_user = false;
+  Perceiver perceiver({}, [&](const ObjectView&) { return unknown; });
+  msg::Scene scene = MakeScene(image, perceiver.Perceive(image));
+  ASSERT_EQ(scene.objects.size(), 3u);
+  for (const auto& object : scene.objects) {
+    EXPECT_EQ(object.category, msg::kUnknownCategory);
+    EXPECT_FALSE(object.ask_user);
+  }
+  scene.utime = 1, scene.seq = 1, scene.frame_seq = 1, scene.source = "test";
+  EXPECT_TRUE(Codec<msg::Scene>::Encode(scene));
+}
+
 TEST(SceneMessage, WithoutATableIsValidToo) {
   RgbdImage image = ThreeBoxes().Render();
   image.depth_m.assign(image.depth_m.size(), 0);
