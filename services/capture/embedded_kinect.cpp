@@ -53,7 +53,7 @@ void Filter(std::vector<T>& image, int width, int height, bool along_rows,
 /// Averages disparity over the neighbours on the same surface: creases round off, outlines stay.
 std::vector<float> SmoothWithinSurfaces(const std::vector<float>& disparity, int width, int height,
                                         double sigma_px) {
-  constexpr float kSameSurface_px = 0.7f;
+  constexpr float kSameSurface_px = 1.0f;
   const int reach = std::max(1, static_cast<int>(std::lround(1.6 * sigma_px)));
   std::vector<float> weights;
   for (int y = -reach; y <= reach; ++y) {
@@ -166,7 +166,7 @@ KinectNoise RandomKinectNoise(Random& random) {
   noise.coarse_sigma_px *= strength * random.Uniform(0.85, 1.15);
   noise.coarse_correlation_u_px *= random.Uniform(0.8, 1.25);
   noise.coarse_correlation_v_px *= random.Uniform(0.8, 1.25);
-  noise.smoothing_px = random.Uniform(1.7, 2.8);
+  noise.smoothing_px = random.Uniform(2.1, 3.2);
   noise.ragged_px = random.Uniform(0.5, 1.2);
   noise.edge_dropout = random.Uniform(0.0, 0.12);
   noise.shadow_dropout = random.Uniform(0.1, 0.7);

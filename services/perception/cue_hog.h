@@ -12,6 +12,7 @@ class HogCue : public Cue {
   std::string name() const override { return "hog"; }
   Encoding encoding() const override { return Encoding::kBag; }
   int dimension() const override { return 2 * 36 + 2; }
+  float weight() const override { return 0.3F; }
   Descriptors Describe(const CueView& view) const override;
 };
 
@@ -21,6 +22,7 @@ class DepthHogCue : public Cue {
   std::string name() const override { return "depth_hog"; }
   Encoding encoding() const override { return Encoding::kDense; }
   int dimension() const override { return 2 * 6 * 6 * 9; }
+  float weight() const override { return 0.5F; }
   Descriptors Describe(const CueView& view) const override;
 };
 

@@ -29,6 +29,8 @@ class Cue {
   virtual int dimension() const = 0;  // columns of what Describe returns
   /// Whether the view holds what this cue looks at; where not, it has no say about the object.
   virtual bool CanSee(const CueView&) const { return true; }
+  /// How much it counts where cues are blended: what a rendering shows of the world, 0 .. 1.
+  virtual float weight() const { return 1; }
   /// All finite. Rows: any number (kBag), else exactly one. Only where CanSee.
   virtual Descriptors Describe(const CueView& view) const = 0;
 };

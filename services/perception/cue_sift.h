@@ -10,6 +10,7 @@ class SiftCue : public Cue {
   std::string name() const override { return "sift"; }
   Encoding encoding() const override { return Encoding::kBag; }
   int dimension() const override { return 128; }
+  float weight() const override { return 0.1F; }  // rendered pictures are no real ones
   Descriptors Describe(const CueView& view) const override;
 };
 

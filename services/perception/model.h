@@ -25,13 +25,14 @@ struct CueModel {
 /// How some cues come to one answer.
 struct Decider {
   std::vector<uint32_t> cues;  // indices into Model::cues, increasing
-  SvmClassifier svm;   // over the square roots of these cues' probabilities, cue by cue; without
-                       // classes where there is but one cue, which then decides alone
-  bool blend = false;  // its answer with the cues' geometric mean; else as it comes
-  SvmClassifier correction;  // what views that were added later say against it: log-odds to add,
-                             // over the same features; without classes where there are none
-  float temperature = 1;     // calibrates: p ~ p^(1 / temperature)
-  float threshold = 0.5F;    // at or below this confidence the user is asked
+  SvmClassifier svm;  // over the square roots of these cues' probabilities, cue by cue; without
+                      // classes where there is but one cue, which then decides alone
+  std::vector<float> weights;  // of the cues' geometric mean that its answer is blended with, one a
+                               // cue, >= 0, not all 0; empty: its answer as it comes
+  SvmClassifier correction;    // what views that were added later say against it: log-odds to add,
+                               // over the same features; without classes where there are none
+  float temperature = 1;       // calibrates: p ~ p^(1 / temperature)
+  float threshold = 0.5F;      // at or below this confidence the user is asked
 };
 
 struct Model {
@@ -62,15 +63,17 @@ std::vector<float> CorrectionOffsets(const std::vector<float>& decided);
 void AddCategory(const std::string& category, Model& model);
 
 /// Puts the geometric mean of the others in the place of what is empty; false where all are.
-bool FillMissing(std::vector<std::vector<float>>& by_cue);
+/// `weights`: of each, or empty for equal ones.
+bool FillMissing(const std::vector<float>& weights, std::vector<std::vector<float>>& by_cue);
 
-/// The cues' geometric mean; no cue rules a category out on its own.
-std::vector<float> MeanOfCues(const std::vector<std::vector<float>>& by_cue);
+/// The cues' weighted geometric mean; no cue rules a category out on its own.
+std::vector<float> MeanOfCues(const std::vector<float>& weights,
+                              const std::vector<std::vector<float>>& by_cue);
 
 /// A weighted geometric mean of what the decider says and what the cues say together. The decider
 /// is right more often where the world is as in training; the mean suffers less where one cue meets
 /// what it never saw.
-std::vector<float> Blend(const std::vector<float>& decided,
+std::vector<float> Blend(const std::vector<float>& decided, const std::vector<float>& weights,
                          const std::vector<std::vector<float>>& by_cue);
 
 /// The decider's features.

@@ -63,7 +63,9 @@ Decider UnpackDecider(ByteReader in, size_t classes, bool& ok) {
   Decider decider;
   const uint32_t cues = std::min(in.Read<uint32_t>(), kMostCues);
   for (uint32_t i = 0; i < cues; ++i) decider.cues.push_back(in.Read<uint32_t>());
-  decider.blend = in.Read<uint8_t>() != 0;
+  if (in.Read<uint8_t>() != 0) {
+    for (uint32_t i = 0; i < cues; ++i) decider.weights.push_back(in.Read<float>());
+  }
   decider.temperature = in.Read<float>();
   decider.threshold = in.Read<float>();
   for (SvmClassifier* svm : {&decider.svm, &decider.correction}) {
@@ -77,7 +79,8 @@ ByteWriter Pack(const Decider& decider) {
   ByteWriter out;
   out.Write(static_cast<uint32_t>(decider.cues.size()));
   for (const uint32_t cue : decider.cues) out.Write(cue);
-  out.Write(static_cast<uint8_t>(decider.blend));
+  out.Write(static_cast<uint8_t>(!decider.weights.empty()));
+  for (const float weight : decider.weights) out.Write(weight);
   out.Write(decider.temperature);
   out.Write(decider.threshold);
   for (const SvmClassifier* svm : {&decider.svm, &decider.correction}) {

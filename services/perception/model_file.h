@@ -11,7 +11,7 @@
 
 namespace beckon::perception {
 
-constexpr uint32_t kModelVersion = 2;
+constexpr uint32_t kModelVersion = 3;
 constexpr size_t kMostModelBytes = 64 << 20;  // before deflation too
 
 /// Same model and zlib, same bytes.

@@ -47,19 +47,20 @@ Status CheckPoints(const ObjectView& view) {
 struct DeciderPlan {
   std::string name;
   std::vector<uint32_t> cues;
-  bool blend = false;
+  std::vector<float> weights;  // that it blends them with; empty: it does not
 };
 
 /// One over all cues, one over the dissertation's alone as it has it, and each cue by itself.
 std::vector<DeciderPlan> PlanDeciders(const Model& model) {
-  DeciderPlan all{"all cues", {}, true}, dissertation{"the dissertation's cues", {}, false};
+  DeciderPlan all{"all cues", {}, {}}, dissertation{"the dissertation's cues", {}, {}};
   std::vector<DeciderPlan> alone;
   const auto& three = DissertationCues();
   for (uint32_t c = 0; c < model.cues.size(); ++c) {
     const std::string& name = model.cues[c].name;
     all.cues.push_back(c);
+    all.weights.push_back(MakeCue(name)->weight());
     if (std::find(three.begin(), three.end(), name) != three.end()) dissertation.cues.push_back(c);
-    alone.push_back({name, {c}, false});
+    alone.push_back({name, {c}, {}});
   }
   std::vector<DeciderPlan> plans;
   const bool has_three = dissertation.cues.size() == three.size();
@@ -269,8 +270,8 @@ Result<TrainOutcome> Trainer::Finish(const Watch& watch) {
         "other cues with --cues"};
   }
   for (const DeciderPlan& plan : PlanDeciders(out.model)) {
-    auto trained = TrainDecider(s.config, out.model.categories, plan.cues, plan.blend, by_cue, set,
-                                step("training the decision over " + plan.name));
+    auto trained = TrainDecider(s.config, out.model.categories, plan.cues, plan.weights, by_cue,
+                                set, step("training the decision over " + plan.name));
     if (!trained) return stopped;
     out.model.deciders.push_back(std::move(trained->decider));
     out.held_out.push_back(std::move(trained->held_out));

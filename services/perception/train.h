@@ -96,7 +96,7 @@ struct TrainedDecider {
 };
 std::optional<TrainedDecider> TrainDecider(
     const TrainConfig& config, const std::vector<std::string>& categories,
-    std::vector<uint32_t> cues, bool blend,
+    std::vector<uint32_t> cues, std::vector<float> weights,
     const std::vector<std::vector<std::vector<float>>>& by_cue, const SvmTrainingSet& set,
     const StepProgress& done);
 

@@ -126,7 +126,7 @@ SvmClassifier BaseTrainer::Correct(const Decider& decider, const std::vector<siz
   std::vector<size_t> seen;
   for (const size_t view : views) {
     auto input = InputOf(decider, view);
-    if (!FillMissing(input)) continue;
+    if (!FillMissing(decider.weights, input)) continue;
     seen.push_back(view);
     ++views_of[instances_[view]];
   }
@@ -144,7 +144,7 @@ SvmClassifier BaseTrainer::Correct(const Decider& decider, const std::vector<siz
     offsets.row(i) = Eigen::Map<const Eigen::RowVectorXf>(odds.data(), k);
     truth(i, labels_[view]) = 1;
     weights[i] = 1 / std::sqrt(static_cast<float>(views_of[instances_[view]]));
-    FillMissing(input);
+    FillMissing(decider.weights, input);
     centres.push_back(StackFeatures(input));
   }
   // Of the distances the same sum that the correction will be evaluated with.

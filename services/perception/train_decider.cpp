@@ -28,8 +28,9 @@ std::optional<std::vector<std::vector<float>>> HeldOutDecisions(const TrainConfi
   if (!trained) return std::nullopt;
   decider.svm = std::move(trained->classifier);
   for (size_t i = 0; i < inputs.size(); ++i) {
-    decisions.push_back(decider.blend ? Blend(trained->out_of_fold[i], inputs[i])
-                                      : std::move(trained->out_of_fold[i]));
+    decisions.push_back(decider.weights.empty()
+                            ? std::move(trained->out_of_fold[i])
+                            : Blend(trained->out_of_fold[i], decider.weights, inputs[i]));
   }
   return decisions;
 }
@@ -38,12 +39,12 @@ std::optional<std::vector<std::vector<float>>> HeldOutDecisions(const TrainConfi
 
 std::optional<TrainedDecider> TrainDecider(const TrainConfig& config,
                                            const std::vector<std::string>& categories,
-                                           std::vector<uint32_t> cues, bool blend,
+                                           std::vector<uint32_t> cues, std::vector<float> weights,
                                            const std::vector<ByCue>& by_cue,
                                            const SvmTrainingSet& all, const StepProgress& done) {
   TrainedDecider out;
   out.decider.cues = std::move(cues);
-  out.decider.blend = blend;
+  out.decider.weights = std::move(weights);
   SvmTrainingSet set;  // of the views that any of the cues sees
   set.classes = all.classes;
   set.fold_count = all.fold_count;
@@ -54,7 +55,7 @@ std::optional<TrainedDecider> TrainDecider(const TrainConfig& config,
     out.held_out[i].label = all.labels[i];
     ByCue input;
     for (const uint32_t c : out.decider.cues) input.push_back(by_cue[i][c]);
-    if (!FillMissing(input)) continue;
+    if (!FillMissing(out.decider.weights, input)) continue;
     inputs.push_back(std::move(input));
     views.push_back(i);
     set.labels.push_back(all.labels[i]);

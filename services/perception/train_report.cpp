@@ -149,7 +149,8 @@ std::string DeciderName(const Model& model, const Decider& decider) {
     of_dissertation +=
         static_cast<size_t>(std::count(three.begin(), three.end(), model.cues[c].name));
   }
-  if (!decider.blend && decider.cues.size() == 3 && of_dissertation == 3) return "dissertation";
+  if (decider.weights.empty() && decider.cues.size() == 3 && of_dissertation == 3)
+    return "dissertation";
   return decider.cues.size() > 1 && decider.cues.size() == model.cues.size() ? "all" : names;
 }
 

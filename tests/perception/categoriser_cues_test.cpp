@@ -50,7 +50,7 @@ TEST(CueSets, TheDissertationsHaveADeciderOfTheirOwn) {
   const Model& model = TrainedOnShapes().model;
   const Decider* decider = FindDecider(model, {0, 1, 2});
   ASSERT_NE(decider, nullptr);
-  EXPECT_FALSE(decider->blend);
+  EXPECT_TRUE(decider->weights.empty());
   EXPECT_EQ(decider->svm.dimension(), 9) << "3k confidences feed it";
   Categoriser categoriser(model);
   ASSERT_TRUE(categoriser.UseCues("dissertation"));
@@ -94,7 +94,7 @@ TEST(CueSets, AModelOfSomeCuesHoldsNoOthers) {
   const auto three = TrainOnShapes(config);
   ASSERT_TRUE(three) << three.error().message;
   EXPECT_EQ(three->model.cues.size(), 3U);
-  EXPECT_FALSE(three->model.deciders.front().blend);
+  EXPECT_TRUE(three->model.deciders.front().weights.empty());
   EXPECT_TRUE(Categoriser(three->model).UseCues("dissertation"));
   config.cues = "shape";
   const auto one = TrainOnShapes(config);
