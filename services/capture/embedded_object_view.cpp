@@ -72,6 +72,14 @@ std::vector<uint8_t> StrayMask(const Stage& stage, const Window& window, const K
   return mask;
 }
 
+float NearestDepth(const KinectDepth& depth, const std::vector<uint8_t>& mask) {
+  float nearest = 1e9f;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] != 0) nearest = std::min(nearest, depth.depth_m[i]);
+  }
+  return nearest;
+}
+
 template <typename T>
 std::vector<T> Cut(const std::vector<T>& image, const Window& from, const Window& to) {
   std::vector<T> out;
@@ -133,6 +141,7 @@ std::optional<Eigen::Vector3d> MeasuredUp(const Stage& stage, Random& random) {
 std::optional<ObjectView> TryRender(const Model& model, bool any_camera, Random& random) {
   constexpr double kLeastVisible = 0.4;
   constexpr int kFewestPixels = 250;
+  constexpr float kNearest_m = 0.35f;  // depth cameras are blind to what is nearer
   const CameraRange kinect{28, 52, 0.6, 1.25}, any{18, 62, 0.5, 1.5};
   Stage stage = MakeStage(random, any_camera ? any : kinect);
   DepthCamera camera{stage.intrinsics, RandomKinectNoise(random)};
@@ -158,6 +167,7 @@ std::optional<ObjectView> TryRender(const Model& model, bool any_camera, Random&
   const KinectDepth depth = SimulateDepth(rendering, camera.noise, random);
   const auto mask = StrayMask(stage, window, depth, random);
   if (std::count(mask.begin(), mask.end(), 255) < kFewestPixels) return std::nullopt;
+  if (NearestDepth(depth, mask) < kNearest_m) return std::nullopt;
   ObjectView view;
   view.intrinsics = stage.intrinsics;
   view.crop = *MaskWindow(mask, window);

@@ -80,6 +80,11 @@ TEST_F(CaptureProgramTest, RefusesBadFlags) {
   ExpectRefused("--render --render-objects --out x", "one of them");
   ExpectRefused("--frames 0 --render --out x", "--frames");
   ExpectRefused("--out x", "--render");
+  ExpectRefused("--views 0 --render-objects --out x", "--views");
+  ExpectRefused("--per-category 0 --render-objects --out x", "--meshes");
+  ExpectRefused("--sensor radar --render-objects --out x", "--sensor");
+  ExpectRefused("--meshes x", "--render-objects");
+  ExpectRefused("--meshes /nowhere --render-objects --out " + (folder_ / "x").string(), "/nowhere");
   ExpectRefused("--render --out /proc/nowhere", "/proc/nowhere");
   ExpectRefused("--unknown", "--unknown");
   ExpectRefused("--config " + Put("bad.toml", "rate_hz = 2\nspeed = 1\n"), "speed");

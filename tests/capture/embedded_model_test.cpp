@@ -48,6 +48,19 @@ TEST(EmbeddedModelTest, KeepsTheProportionsOfItsKind) {
   }
 }
 
+TEST(EmbeddedModelTest, ThingsOfNoCategoryAreSoundAndOfATablesSize) {
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const Model model = MakeUnknownModel(random);
+    EXPECT_EQ(model.category, kUnknown);
+    ASSERT_EQ(model.mesh.uv.size(), model.mesh.positions.size());
+    for (const auto& p : model.mesh.positions) ASSERT_TRUE(p.allFinite()) << seed;
+    for (const auto& t : model.mesh.triangles) ASSERT_LT(t.material, model.materials.size());
+    EXPECT_GT(Extent(model).maxCoeff(), 0.04) << seed;
+    EXPECT_LT(Extent(model).maxCoeff(), 0.6) << seed;
+  }
+}
+
 TEST(EmbeddedModelTest, RestsOnTheTable) {
   for (uint64_t seed = 0; seed < 120; ++seed) {
     Random random(seed);
