@@ -142,6 +142,7 @@ struct Service::State {
   void PublishOne(const msg::Query& query) { Send(query, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Session& event) { Send(event, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) { bus.Refuse(refused.channel, refused.detail); }
 
@@ -167,6 +168,7 @@ struct Service::State {
                                         {"tasks_expired", c.expired},
                                         {"tasks_revoked", c.revoked},
                                         {"confirmations_held", c.held},
+                                        {"labels", c.labels},
                                         {"late_scenes", c.late_scenes},
                                         {"db_rows", rows ? *rows : -1},
                                         {"question_us", question_us},
