@@ -27,6 +27,8 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_option("--segmentation", o.overrides.segmentation, "How to segment: fast or reference");
   app.add_flag("--no-categories", o.overrides.no_categories, "Do not categorise objects");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
+  app.add_option("--examples", o.overrides.examples,
+                 "Folder for views of objects that the user named");
   app.add_flag("--list-categories", o.list_categories, "Print the model's categories and leave");
   app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));
@@ -51,7 +53,7 @@ Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
   RunLoop loop(true);  // before threads start: it blocks signals for all of them
   auto bus = Bus::Open(lcm_url);
   if (!bus) return bus.error();
-  Service service(**bus, loop, config.perceiver, *std::move(categoriser));
+  Service service(**bus, loop, config.perceiver, *std::move(categoriser), config.learning);
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   loop.Run();
   return {};
