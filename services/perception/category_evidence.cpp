@@ -12,19 +12,19 @@ namespace beckon::perception {
 namespace {
 
 constexpr char kUnknown[] = "Unknown";
-constexpr double kLeast = 1e-6;     // probability; no view rules a category out
-constexpr double kUnheardOf = 0.02; // of a category that the categoriser does not know
-constexpr double kTold = 0.97;      // the user may err too
-constexpr double kJumped = 0.5;     // what views from before a jump count
-constexpr double kFar_m = 0.1;      // an object carried so far has turned, more likely than not
-constexpr double kGrown = 0.5;      // logarithm of the points: as much has come in sight
+constexpr double kLeast = 1e-6;      // probability; no view rules a category out
+constexpr double kUnheardOf = 0.02;  // of a category that the categoriser does not know
+constexpr double kTold = 0.97;       // the user may err too
+constexpr double kJumped = 0.5;      // what views from before a jump count
+constexpr double kFar_m = 0.1;       // an object carried so far has turned, more likely than not
+constexpr double kGrown = 0.5;       // logarithm of the points: as much has come in sight
 
 /// 1 for one and the same view, falling to config.dependence.
 double Dependence(const SeenAt& a, const SeenAt& b, const EvidenceConfig& config) {
   const double n_a = static_cast<double>(std::max<size_t>(1, a.n_points));
   const double n_b = static_cast<double>(std::max<size_t>(1, b.n_points));
-  const double apart = (a.centroid_C - b.centroid_C).norm() / kFar_m +
-                       std::abs(std::log(n_a / n_b)) / kGrown;
+  const double apart =
+      (a.centroid_C - b.centroid_C).norm() / kFar_m + std::abs(std::log(n_a / n_b)) / kGrown;
   return config.dependence + (1 - config.dependence) * std::exp(-apart);
 }
 
@@ -46,7 +46,8 @@ void Write(const Logs& logs, const EvidenceConfig& config, Categorisation& out) 
     all.push_back(static_cast<float>(std::exp(log_p - most) / sum));
     out.probabilities.emplace_back(name, all.back());
   }
-  std::ranges::stable_sort(out.probabilities, std::greater<>(), &std::pair<std::string, float>::second);
+  std::ranges::stable_sort(out.probabilities, std::greater<>(),
+                           &std::pair<std::string, float>::second);
   out.confidence = RenyiConfidence(all);
   out.ask_user = out.confidence <= config.ask_at_or_below;
 }
@@ -91,7 +92,8 @@ Categorisation Combine(const std::vector<Categorisation>& views, const std::vect
   std::vector<double> w;
   for (size_t i = 0; i < views.size(); ++i)
     w.push_back(weights[i] * std::clamp(Size(at[i]) / std::max(largest, 1e-12), 0.1, 1.0));
-  // The variance of a weighted mean of views that depend on each other says how many they count for.
+  // The variance of a weighted mean of views that depend on each other says how many they count
+  // for.
   double sum = 0, dependent = 0;
   for (size_t i = 0; i < views.size(); ++i) {
     sum += w[i];

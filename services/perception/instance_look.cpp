@@ -17,14 +17,15 @@ constexpr double kOutermost = 0.02;                         // part of the point
 constexpr double kSmallest_m = 0.005;                       // sizes below are as this
 constexpr int kTurns = 12;                                  // directions along the table
 
-// What two views of one thing commonly differ by (tools/experiments/told; docs/model.md).
-constexpr double kHeightScale = 0.10;  // of the logarithm
-constexpr double kWidthScale = 0.15;   // of the logarithm
+// What two views of one thing commonly differ by (beckon-bench-told; docs/model.md).
+constexpr double kHeightScale = 0.05;  // of the logarithm
+constexpr double kWidthScale = 0.20;   // of the logarithm
 constexpr double kColourScale = 0.20;  // of 1 - what the histograms share
 
 /// The part of `values` at `share`, 0 .. 1.
 double Quantile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -55,20 +56,15 @@ void AddColour(const Rgb& rgb, std::array<float, InstanceLook::kCells>& cells) {
   }
 }
 
+/// What the histograms share, 0 .. 1; 1 where either has no colour.
 double Shared(const InstanceLook& a, const InstanceLook& b) {
-  double shared = 0, bands = 0;
-  for (int band = 0; band < InstanceLook::kBands; ++band) {
-    double in_a = 0, in_b = 0, common = 0;
-    for (int i = 0; i < InstanceLook::kCells; ++i) {
-      in_a += a.colours[band][i];
-      in_b += b.colours[band][i];
-      common += std::min(a.colours[band][i], b.colours[band][i]);
-    }
-    if (in_a == 0 || in_b == 0) continue;
-    shared += common;
-    ++bands;
+  double in_a = 0, in_b = 0, common = 0;
+  for (int i = 0; i < InstanceLook::kCells; ++i) {
+    in_a += a.colours[i];
+    in_b += b.colours[i];
+    common += std::min(a.colours[i], b.colours[i]);
   }
-  return bands == 0 ? 1 : shared / bands;
+  return in_a == 0 || in_b == 0 ? 1 : common;
 }
 
 double LogRatio(double a_m, double b_m) {
@@ -97,9 +93,7 @@ InstanceLook LookAtInstance(const ObjectView& view) {
   }
   if (seen.size() < static_cast<size_t>(Categoriser::kMinPoints)) return look;
   look.n_points = static_cast<int>(seen.size());
-  std::vector<double> sorted = heights;
-  const double low = Quantile(sorted, kOutermost);
-  look.height_m = Quantile(sorted, 1 - kOutermost) - low;
+  look.height_m = Span(std::move(heights));
   for (int turn = 0; turn < kTurns; ++turn) {
     const double angle = turn * std::numbers::pi / kTurns;
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
@@ -108,17 +102,8 @@ InstanceLook LookAtInstance(const ObjectView& view) {
     look.width_m = std::max(look.width_m, Span(std::move(spread)));
   }
   if (image.colour.empty()) return look;
-  std::array<int, InstanceLook::kBands> n{};
-  for (size_t i = 0; i < seen.size(); ++i) {
-    const double at = (heights[i] - low) / std::max(look.height_m, kSmallest_m);
-    const int band = std::clamp(static_cast<int>(at * InstanceLook::kBands), 0,
-                                InstanceLook::kBands - 1);
-    AddColour(image.colour[seen[i]], look.colours[band]);
-    ++n[band];
-  }
-  for (int band = 0; band < InstanceLook::kBands; ++band) {
-    for (float& share : look.colours[band]) share /= static_cast<float>(std::max(1, n[band]));
-  }
+  for (const size_t pixel : seen) AddColour(image.colour[pixel], look.colours);
+  for (float& share : look.colours) share /= static_cast<float>(seen.size());
   return look;
 }
 

@@ -10,12 +10,11 @@
 namespace beckon::perception {
 
 struct InstanceLook {
-  static constexpr int kBands = 3;   // of equal height, from the table upwards
   static constexpr int kCells = 64;  // 4 x 4 x 4 of red, green and blue
 
   double height_m = 0;  // along the table's normal, without the outermost 2 % of the points
   double width_m = 0;   // the longest edge along the table, likewise
-  std::array<std::array<float, kCells>, kBands> colours{};  // shares; zeros where there is no colour
+  std::array<float, kCells> colours{};  // shares, sum 1; zeros where there is no colour
   int n_points = 0;
 };
 

@@ -23,10 +23,11 @@ PerceiverConfig WithThreshold(PerceiverConfig config, const Categoriser* categor
 }  // namespace
 
 Perceiver::Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
-    : Perceiver(WithThreshold(config, categoriser),
-                categoriser == nullptr ? Categorise() : [categoriser](const ObjectView& view) {
-                  return categoriser->Categorise(view);
-                }) {}
+    : Perceiver(
+          WithThreshold(config, categoriser),
+          categoriser == nullptr ? Categorise() : [categoriser](const ObjectView& view) {
+            return categoriser->Categorise(view);
+          }) {}
 
 Perception Perceiver::Perceive(const RgbdImage& image) {
   Perception perception;

@@ -32,9 +32,9 @@ struct PerceivedObject {
   int id = 0;  // >= 1
   ExtractedObject shape;
   bool categorised = false;  // false: there is no categoriser, or too little was seen
-  Categorisation category;  // of all that is known of it
-  std::optional<Told> told;      // what the user said it is
-  bool is_example = false;       // this view became one, of what was said
+  Categorisation category;   // of all that is known of it
+  std::optional<Told> told;  // what the user said it is
+  bool is_example = false;   // this view became one, of what was said
 };
 
 struct Perception {

@@ -42,14 +42,14 @@ class Service {
     int64_t objects = 0;          // in the last scene
     int64_t segmentation_us = 0;  // of the last computed frame
     int64_t categorisation_us = 0;
-    int64_t labels = 0;           // received: of these
-    int64_t labels_stale = 0;     // of a scene that is not known (any more),
-    int64_t labels_unmatched = 0; // of an object that is not known (any more),
-    int64_t labels_taken = 0;     // new, and heeded
-    int64_t examples = 0;         // views of named objects, remembered
-    int64_t examples_kept = 0;    // written to the folder
-    int64_t examples_failed = 0;  // that could not be written or removed
-    int64_t examples_torn = 0;    // left out at the start
+    int64_t labels = 0;            // received: of these
+    int64_t labels_stale = 0;      // of a scene that is not known (any more),
+    int64_t labels_unmatched = 0;  // of an object that is not known (any more),
+    int64_t labels_taken = 0;      // new, and heeded
+    int64_t examples = 0;          // views of named objects, remembered
+    int64_t examples_kept = 0;     // written to the folder
+    int64_t examples_failed = 0;   // that could not be written or removed
+    int64_t examples_torn = 0;     // left out at the start
   };
   Counters counters() const;
   /// One line for people.
@@ -87,8 +87,8 @@ class Service {
   int64_t seq_ = 0;
   std::string state_ = "no frame yet";
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // for what is posted and comes late
-  std::deque<SceneName> published_;   // the newest
-  std::shared_ptr<Inbox> inbox_;      // of the worker
+  std::deque<SceneName> published_;                             // the newest
+  std::shared_ptr<Inbox> inbox_;                                // of the worker
   std::unique_ptr<FrameWorker> work_;
   std::unique_ptr<LatestWorker<msg::Frame>> worker_;
   StatusReporter status_;

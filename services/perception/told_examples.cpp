@@ -10,7 +10,7 @@ namespace {
 
 // Fitted to the rates of equal and of other products below each difference (docs/model.md).
 const double kAtLimit = std::log(10.0);
-const double kPerUnit = 2.0;
+const double kPerUnit = 1.5;
 const double kMost = std::log(300.0);  // two things may look the same
 
 }  // namespace
@@ -33,8 +33,7 @@ int ToldExamples::Count(const std::string& label_id) const {
   return static_cast<int>(std::ranges::count(examples_, label_id, &ToldExample::label_id));
 }
 
-std::map<std::string, double> ToldExamples::Evidence(
-    const std::vector<InstanceLook>& looks) const {
+std::map<std::string, double> ToldExamples::Evidence(const std::vector<InstanceLook>& looks) const {
   std::map<std::string, double> evidence;
   for (const ToldExample& example : examples_) {
     for (const InstanceLook& look : looks) {

@@ -1,5 +1,5 @@
-// Objects that the user named before, as they looked: recognised again, they are evidence of what an
-// object is.
+// Objects that the user named before, as they looked: recognised again, they are evidence of what
+// an object is.
 #pragma once
 
 #include <map>
@@ -17,9 +17,9 @@ struct ToldExample {
   InstanceLook look;
 };
 
-/// Difference of looks beyond which an example says nothing. Of views of other products 0.6 % are
-/// below it (docs/model.md).
-inline constexpr double kRecognisedBelow = 1.5;
+/// Difference of looks beyond which an example says nothing. Fewer than 1 % of pairs of views of
+/// two products are below it (docs/model.md).
+inline constexpr double kRecognisedBelow = 2.75;
 
 class ToldExamples {
  public:

@@ -12,8 +12,8 @@
 namespace beckon::perception {
 
 struct ToldStoreConfig {
-  std::string folder;    // made where it is not there
-  int most_views = 2000; // of all objects; further ones are refused
+  std::string folder;     // made where it is not there
+  int most_views = 2000;  // of all objects; further ones are refused
 };
 
 class ToldStore {

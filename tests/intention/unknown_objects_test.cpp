@@ -53,8 +53,11 @@ class UnknownTest : public ::testing::Test {
   static msg::SceneObject Doubtful(int id, double x, double y) {
     msg::SceneObject object = SceneObject(id, msg::kUnknownCategory, x, y, 0.3f);
     object.ask_user = true;
-    object.probabilities = {{msg::kUnknownCategory, 0.4f}, {"Box", 0.3f}, {"Carton", 0.1f},
-                            {"Tin", 0.1f},  {"Can", 0.1f}};
+    object.probabilities = {{msg::kUnknownCategory, 0.4f},
+                            {"Box", 0.3f},
+                            {"Carton", 0.1f},
+                            {"Tin", 0.1f},
+                            {"Can", 0.1f}};
     return object;
   }
   FakeMemory memory;

@@ -254,12 +254,12 @@ TEST(Codec, FingerprintsAreLocked) {
                                                {"status_t", status_t::getHash()},
                                                {"label_t", label_t::getHash()}};
   const std::map<std::string, uint64_t> locked = {
-      {"answer_t", 0xa22727a8afbaf8c6},  {"frame_t", 0x5b22eba1617c64a5},
-      {"history_t", 0xcd16f6d015811a6c}, {"interface_t", 0x8fbf178510e3e991}, {"label_t", 0x7d3b00c4161fd9b2},
-      {"poses_t", 0x715036521295f425},   {"query_t", 0xcacf0cc24ccdf064},
-      {"scene_t", 0x4ef49dbaddf4c015},   {"session_t", 0x1e39e1f4c26e2b7c},
-      {"status_t", 0x11a1e4a40922e1e7},  {"task_status_t", 0xc7536171eaec0f69},
-      {"task_t", 0xc938a574d229bb67}};
+      {"answer_t", 0xa22727a8afbaf8c6},      {"frame_t", 0x5b22eba1617c64a5},
+      {"history_t", 0xcd16f6d015811a6c},     {"interface_t", 0x8fbf178510e3e991},
+      {"label_t", 0x7d3b00c4161fd9b2},       {"poses_t", 0x715036521295f425},
+      {"query_t", 0xcacf0cc24ccdf064},       {"scene_t", 0x4ef49dbaddf4c015},
+      {"session_t", 0x1e39e1f4c26e2b7c},     {"status_t", 0x11a1e4a40922e1e7},
+      {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67}};
   EXPECT_EQ(now, locked);
 }
 

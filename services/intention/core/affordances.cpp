@@ -65,7 +65,8 @@ Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<E
   for (const Entry& entry : entries) {
     if (entry.category == kUnknown) {
       return Error{
-          "affordances: 'Unknown' is reserved for objects of no category; what can be done with them "
+          "affordances: 'Unknown' is reserved for objects of no category; what can be done with "
+          "them "
           "stands in [unknown]"};
     }
   }

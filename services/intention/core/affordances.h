@@ -32,8 +32,8 @@ class Affordances {
 
   /// Fails on an empty table, a doubled or empty name, an action without words, a category that
   /// affords nothing, the reserved name "Unknown", and more than 64 of either.
-  /// `unknown`: what can be done with any object, also one of no category; where there is something,
-  /// "Unknown" is a category like the others.
+  /// `unknown`: what can be done with any object, also one of no category; where there is
+  /// something, "Unknown" is a category like the others.
   static Result<Affordances> Make(std::vector<Action> actions, std::vector<Entry> entries,
                                   std::vector<std::string> unknown = {});
   /// The same without what can be done with objects of no category.

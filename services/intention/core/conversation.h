@@ -27,12 +27,12 @@ struct ConversationConfig {
   Utime task_period = kSecond / 2;
   Utime task_lifetime = 30 * kSecond;
   Utime label_period = kSecond / 2;
-  Utime label_lifetime = 30 * kSecond;  // after its session; a label that perception took is over
+  Utime label_lifetime = 30 * kSecond;   // after its session; a label that perception took is over
   Utime retract_lifetime = 5 * kSecond;  // nothing shows that it was heard
-  Utime scene_max_age = 5 * kSecond;  // since it arrived
-  Utime pose_wait = kSecond;          // most that the first query waits for poses, likewise
-  double pose_place_m = 0.10;         // most between a pose and the object it is for
-  int max_sessions = 16;              // users at a time
+  Utime scene_max_age = 5 * kSecond;     // since it arrived
+  Utime pose_wait = kSecond;             // most that the first query waits for poses, likewise
+  double pose_place_m = 0.10;            // most between a pose and the object it is for
+  int max_sessions = 16;                 // users at a time
   LabelMatchConfig labels;
   FollowConfig follow;  // of the table while a session lasts
   Phrases phrases = English();

@@ -11,8 +11,7 @@ namespace {
 /// Whether perception took it. Nothing shows that it heard of a label taken back.
 bool IsShown(const msg::Label& label, const msg::Scene& scene) {
   if (label.state != msg::LabelState::kGiven || scene.source != label.source) return false;
-  const auto object =
-      std::ranges::find(scene.objects, label.object_id, &msg::SceneObject::id);
+  const auto object = std::ranges::find(scene.objects, label.object_id, &msg::SceneObject::id);
   return object != scene.objects.end() && !object->ask_user && object->category == label.category;
 }
 
@@ -52,8 +51,7 @@ void Conversation::TellLabels(Talk& talk, Utime now) {
   const auto records = LabelsOf(talk, now);
   for (size_t i = 0; i < said.size(); ++i) given.emplace(said[i].object, records[i]);
   for (const auto& [object, record] : talk.told) {
-    if (!given.contains(object))
-      SendLabel(talk, record, object, msg::LabelState::kRetracted, now);
+    if (!given.contains(object)) SendLabel(talk, record, object, msg::LabelState::kRetracted, now);
   }
   for (const auto& [object, record] : given) {
     const auto before = talk.told.find(object);

@@ -306,8 +306,7 @@ std::vector<GivenLabel> Interview::Labels() const {
     const bool named = affordances_.IsNamed(category);
     const bool refused = !named && !opinions_[i].refused.empty();
     if (!opinions_[i].settled && !refused) continue;
-    labels.push_back(
-        {i, named ? affordances_.categories()[category].name : msg::kUnknownCategory});
+    labels.push_back({i, named ? affordances_.categories()[category].name : msg::kUnknownCategory});
   }
   return labels;
 }

@@ -89,7 +89,8 @@ std::vector<int> Interview::Left(int object) const {
   const auto& refused = opinions_[object].refused;
   std::vector<int> left;
   const auto add = [&](int category) {
-    if (!affordances_.IsNamed(category) || std::count(refused.begin(), refused.end(), category) > 0) return;
+    if (!affordances_.IsNamed(category) || std::count(refused.begin(), refused.end(), category) > 0)
+      return;
     if (std::count(left.begin(), left.end(), category) == 0) left.push_back(category);
   };
   for (const auto& p : input_.table[object].object.probabilities) {
@@ -140,7 +141,8 @@ int Interview::NextToRecheck() const {
   int next = -1;
   const auto later = [&](int i) {
     const Opinion& opinion = opinions_[i];
-    return std::tuple(affordances_.IsNamed(opinion.category), opinion.remembered, input_.table[i].object.confidence);
+    return std::tuple(affordances_.IsNamed(opinion.category), opinion.remembered,
+                      input_.table[i].object.confidence);
   };
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
     if (input_.table[i].gone || opinions_[i].settled) continue;

@@ -58,7 +58,7 @@ class SceneFollower {
     std::optional<Eigen::Vector3d> at_W;  // nothing: not seen
   };
   struct Track {
-    int id = 0;  // in the present run of perception; 0: not known
+    int id = 0;                                    // in the present run of perception; 0: not known
     std::vector<msg::CategoryProbability> latest;  // perception's opinion, which what the user says
                                                    // changes
     Change change;
