@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "services/base/app.h"
@@ -30,16 +28,6 @@ std::string HostName() {
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
   return name[0] == '\0' ? "unnamed" : name.data();
-}
-
-std::string DefaultDatabase() {
-  namespace fs = std::filesystem;
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  const fs::path folder = data != nullptr && *data != '\0'
-                              ? fs::path(data)
-                              : fs::path(home == nullptr ? "." : home) / ".local" / "share";
-  return (folder / "beckon" / "beckon.db").string();
 }
 
 std::unique_ptr<Policy> PolicyOf(const ServiceConfig& config, const Affordances& affordances) {
@@ -76,7 +64,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
 }
 
 void FillDefaults(ServiceConfig& config) {
-  if (config.db.empty()) config.db = DefaultDatabase();
+  if (config.db.empty()) config.db = DataFile("beckon.db");
   if (config.affordances.empty()) config.affordances = SharedFile("affordances.toml");
   if (config.phrases.empty()) config.phrases = SharedFile("questions.en.toml");
   if (config.machine.empty()) config.machine = HostName();

@@ -76,8 +76,9 @@ void Obey(const Told& told, const EvidenceConfig& config, Categorisation& catego
 
 void Weigh(const std::map<std::string, double>& evidence, const EvidenceConfig& config,
            Categorisation& category) {
-  if (evidence.empty() || category.probabilities.empty()) return;
+  if (evidence.empty()) return;
   Logs logs = LogsOf(category);
+  if (logs.empty()) logs[kUnknown] = std::log(1 - kUnheardOf);
   for (const auto& [name, log_ratio] : evidence)
     logs.try_emplace(name, std::log(kUnheardOf)).first->second += log_ratio;
   Write(logs, config, category);

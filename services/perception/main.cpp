@@ -27,8 +27,9 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_option("--segmentation", o.overrides.segmentation, "How to segment: fast or reference");
   app.add_flag("--no-categories", o.overrides.no_categories, "Do not categorise objects");
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
-  app.add_option("--examples", o.overrides.examples,
-                 "Folder for views of objects that the user named");
+  app.add_option(
+      "--examples", o.overrides.examples,
+      "Folder for views of objects that the user named; auto: ~/.local/share/beckon/examples");
   app.add_flag("--list-categories", o.list_categories, "Print the model's categories and leave");
   app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));

@@ -85,6 +85,7 @@ Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides&
   if (overrides.no_categories) config.categories = false;
   if (!overrides.model.empty()) config.model = overrides.model;
   if (!overrides.examples.empty()) config.learning.folder = overrides.examples;
+  if (config.learning.folder == "auto") config.learning.folder = DataFile("examples");
   if (overrides.threads > 0) config.perceiver.threads = overrides.threads;
   return config;
 }
