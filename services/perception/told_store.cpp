@@ -152,11 +152,13 @@ std::string ToldStore::NameOf(const std::string& label_id) {
 
 Result<ToldStore> ToldStore::Open(const ToldStoreConfig& config) {
   ToldStore store(config);
-  std::error_code error;
-  fs::create_directories(config.folder, error);
-  if (error || !fs::is_directory(config.folder)) {
-    return Error{config.folder + ": expected a folder for examples, cannot make it (" +
-                 error.message() + "); see [learning] folder"};
+  // Made when there is something to keep; that it can be is told now.
+  fs::path there = fs::absolute(config.folder);
+  std::error_code ignored;
+  while (!fs::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, ignored) || access(there.c_str(), W_OK) != 0) {
+    return Error{config.folder + ": expected a folder for examples, cannot make or write it (" +
+                 there.string() + " is no folder that may be written); see [learning] folder"};
   }
   if (Status loaded = store.Load(); !loaded) return loaded.error();
   return store;
@@ -172,6 +174,7 @@ Status ToldStore::Load() {
                  "', found others; name another folder in [learning] folder"};
   }
   std::error_code error;
+  if (!fs::exists(config_.folder, error)) return {};
   std::vector<fs::path> unfinished;
   bool any = false;
   for (fs::recursive_directory_iterator it(config_.folder, error), end; !error && it != end;
@@ -194,7 +197,8 @@ Status ToldStore::Load() {
     files_[record.file] = name;
     const bool whole = record.intrinsics && record.crop_px &&
                        std::ranges::all_of(kSiblings, [&](const char* ending) {
-                         return !cv::imread(stem + ending, cv::IMREAD_UNCHANGED).empty();
+                         return fs::exists(stem + ending) &&
+                                !cv::imread(stem + ending, cv::IMREAD_UNCHANGED).empty();
                        });
     const auto view = whole ? LoadView(record) : Result<LoadedView>(Error{"a part is missing"});
     const InstanceLook look = view ? LookAtInstance(view->view()) : InstanceLook();

@@ -12,14 +12,14 @@
 namespace beckon::perception {
 
 struct ToldStoreConfig {
-  std::string folder;     // made where it is not there
+  std::string folder;     // made with the first view
   int most_views = 2000;  // of all objects; further ones are refused
 };
 
 class ToldStore {
  public:
   /// Reads what is there. A view that cannot be read is left out, and named in warnings(). Fails
-  /// where the folder cannot be made or listed, or its manifest is none of ours.
+  /// where the folder cannot be made, written or listed, or its manifest is none of ours.
   static Result<ToldStore> Open(const ToldStoreConfig& config);
 
   /// What was read: looks, with the objects' names for their label.
