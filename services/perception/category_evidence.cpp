@@ -111,17 +111,21 @@ Categorisation Combine(const std::vector<Categorisation>& views, const std::vect
   return combined;
 }
 
+bool CategoryEvidence::Jumped(const SeenAt& at, const EvidenceConfig& config) const {
+  return last_ && (at.centroid_C - last_->centroid_C).norm() > config.jump_m;
+}
+
 bool CategoryEvidence::IsNew(const SeenAt& at, const EvidenceConfig& config) const {
-  return std::ranges::none_of(views_, [&](const View& view) {
-    const double before = static_cast<double>(view.at.n_points);
-    return (at.centroid_C - view.at.centroid_C).norm() <= config.step_m &&
-           std::abs(static_cast<double>(at.n_points) - before) <= config.growth * before;
-  });
+  return Jumped(at, config) || std::ranges::none_of(views_, [&](const View& view) {
+           const double before = static_cast<double>(view.at.n_points);
+           return (at.centroid_C - view.at.centroid_C).norm() <= config.step_m &&
+                  std::abs(static_cast<double>(at.n_points) - before) <= config.growth * before;
+         });
 }
 
 void CategoryEvidence::Add(const SeenAt& at, const InstanceLook& look, Categorisation view,
                            const ToldExamples& examples, const EvidenceConfig& config) {
-  if (last_ && (at.centroid_C - last_->centroid_C).norm() > config.jump_m) {
+  if (Jumped(at, config)) {
     for (View& earlier : views_) earlier.weight *= kJumped;
     if (told_ && !examples.IsLike(told_->label_id, look)) told_.reset();
   }

@@ -36,7 +36,7 @@ struct Told {
 
 class CategoryEvidence {
  public:
-  /// Whether a view differs from every one that was taken.
+  /// Whether a view differs from every one that was taken, or the object jumped.
   bool IsNew(const SeenAt& at, const EvidenceConfig& config) const;
   /// Takes a view that is new. Where the object jumped, what is known from before counts half, and
   /// what the user said holds no longer unless it looks like it did then.
@@ -62,6 +62,8 @@ class CategoryEvidence {
     Categorisation category;
     double weight = 1;  // halved by a jump
   };
+
+  bool Jumped(const SeenAt& at, const EvidenceConfig& config) const;
 
   std::vector<View> views_;  // oldest first
   std::optional<SeenAt> last_;

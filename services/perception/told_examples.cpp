@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace beckon::perception {
@@ -12,6 +13,8 @@ namespace {
 const double kAtLimit = std::log(10.0);
 const double kPerUnit = 1.5;
 const double kMost = std::log(300.0);  // two things may look the same
+
+constexpr double kFew = 8;  // objects; of more, one looks alike by chance
 
 }  // namespace
 
@@ -34,10 +37,13 @@ int ToldExamples::Count(const std::string& label_id) const {
 }
 
 std::map<std::string, double> ToldExamples::Evidence(const std::vector<InstanceLook>& looks) const {
+  std::set<std::string> objects;
+  for (const ToldExample& example : examples_) objects.insert(example.label_id);
+  const double by_chance = std::log(std::max(1.0, static_cast<double>(objects.size()) / kFew));
   std::map<std::string, double> evidence;
   for (const ToldExample& example : examples_) {
     for (const InstanceLook& look : looks) {
-      const double log_ratio = LogLikelihoodRatio(Difference(look, example.look));
+      const double log_ratio = LogLikelihoodRatio(Difference(look, example.look)) - by_chance;
       if (log_ratio <= 0) continue;
       double& best = evidence[example.category];
       best = std::max(best, log_ratio);

@@ -32,7 +32,8 @@ class ToldExamples {
   int version() const { return version_; }
 
   /// By category: how much likelier (logarithm, > 0) an object of one of these looks is to look so
-  /// where it is of the category than where it is not, by the likest example of the category.
+  /// where it is of the category than where it is not, by the likest example of the category; the
+  /// less the more objects there are to compare with.
   /// Categories without an example alike are left out.
   std::map<std::string, double> Evidence(const std::vector<InstanceLook>& looks) const;
   /// Whether a look is like one of an object's views.

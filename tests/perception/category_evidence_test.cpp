@@ -94,8 +94,10 @@ TEST_F(EvidenceTest, AViewIsNewOnlyWhereItDiffersFromAllThatWereTaken) {
   EXPECT_FALSE(evidence.IsNew(At(0.005, 1100), config)) << "noise";
   EXPECT_TRUE(evidence.IsNew(At(0.02), config));
   EXPECT_TRUE(evidence.IsNew(At(0, 1300), config));
-  Add(At(0.2), Says({{"Mug", 1.0f}}));
+  for (const double x_m : {0.08, 0.16, 0.08}) Add(At(x_m), Says({{"Mug", 1.0f}}));
   EXPECT_FALSE(evidence.IsNew(At(0.005), config)) << "it was there before";
+  Add(At(0.5), Says({{"Mug", 1.0f}}));
+  EXPECT_TRUE(evidence.IsNew(At(0.005), config)) << "what jumps there may be another";
 }
 
 TEST_F(EvidenceTest, TheNumberOfViewsIsBounded) {
@@ -158,6 +160,15 @@ TEST_F(EvidenceTest, AnExampleAlikeIsEvidenceAndNoVerdict) {
   EXPECT_EQ(sure.Decide(examples, config).probabilities.front().first, "Mug");
   examples.Remove("l");
   EXPECT_EQ(Decide().probabilities.front().first, "Mug");
+}
+
+TEST_F(EvidenceTest, OneOfManyExamplesSaysLessForItMayLookAlikeByChance) {
+  Add(At(0), Says({{"Mug", 0.5f}, {"Cup", 0.3f}, {"Tin", 0.2f}}));
+  examples.Add({"l", "Tin", Look(0)});
+  const float of_one = Probability(Decide(), "Tin");
+  for (int i = 0; i < 100; ++i) examples.Add({std::to_string(i), "Tub", Look(5)});
+  EXPECT_LT(Probability(Decide(), "Tin"), of_one);
+  EXPECT_GT(Probability(Decide(), "Tin"), 0.2f);
 }
 
 TEST_F(EvidenceTest, AnExampleOfAnotherLookSaysNothing) {

@@ -50,6 +50,48 @@ TEST(Perceiver, LooksAnewAtTheObjectThatMoved) {
   for (const auto& object : moved.objects) EXPECT_LE(object.id, 3);
 }
 
+TEST(Perceiver, NoisyFramesOfTheSameViewAreNotCategorisedAgain) {
+  CountingPerceiver counting;
+  BoxWorld world = ThreeBoxes();
+  world.noise_m = kKinectNoise_m;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    counting.perceiver.Perceive(world.Render(nullptr, seed));
+  EXPECT_EQ(counting.calls, 3);
+}
+
+TEST(Perceiver, WhatComesBackToWhereItWasIsNotCategorisedAgain) {
+  CountingPerceiver counting;
+  BoxWorld world = ThreeBoxes();
+  for (const double step_m : {0.0, 0.02, -0.02, 0.02, -0.02}) {
+    world.boxes[1].low.x() += step_m;
+    world.boxes[1].high.x() += step_m;
+    counting.perceiver.Perceive(world.Render());
+  }
+  EXPECT_EQ(counting.calls, 4);
+}
+
+TEST(Perceiver, KeepsOnlyAFewViewsOfAnObjectThatTheUserNamed) {
+  CountingPerceiver counting;
+  BoxWorld world = ThreeBoxes();
+  const int id = counting.perceiver.Perceive(world.Render()).objects[0].id;
+  ASSERT_TRUE(counting.perceiver.Tell(id, {"l", "Tin"}));
+  int kept = 0;
+  for (int step = 0; step < 10; ++step) {
+    for (int box = 1; box <= 3; ++box) {
+      world.boxes[box].low.x() += 0.015;
+      world.boxes[box].high.x() += 0.015;
+    }
+    const Perception perception = counting.perceiver.Perceive(world.Render());
+    for (const auto& object : perception.objects) {
+      EXPECT_EQ(object.category.probabilities.front().first, object.id == id ? "Tin" : "Box");
+      EXPECT_TRUE(object.id == id || !object.is_example);
+      kept += object.is_example ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(kept, PerceiverConfig().views_per_object);
+  EXPECT_FALSE(counting.perceiver.Tell(99, {"l", "Tin"})) << "nobody knows this object";
+}
+
 TEST(Perceiver, LooksAnewAtTheObjectThatChanged) {
   // 6 cm tall before, of which the reference sees the upper 5: its centroid stays within a
   // centimetre.
