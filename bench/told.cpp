@@ -59,7 +59,8 @@ void PrintMatches(const std::vector<Measured>& views) {
   };
   std::printf("pairs of views: %zu of one product, %zu of two\n", same.size(), other.size());
   std::printf("  %-18s %8s %8s %16s\n", "difference below", "same", "other", "other category");
-  for (const double limit : {0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0}) {
+  for (const double limit :
+       {0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 2.75, 3.0, 3.5, 4.0, 5.0}) {
     std::printf("  %-18.2f %7.1f%% %7.2f%% %15.2f%%%s\n", limit, below(same, limit),
                 below(other, limit), below(other_category, limit),
                 limit == kRecognisedBelow ? "  <- recognised" : "");

@@ -13,11 +13,11 @@
 namespace beckon::perception {
 
 struct EvidenceConfig {
-  double step_m = 0.01;     // a view from so much farther along is another one,
-  double growth = 0.2;      // so is one of which this part more or less is seen
-  double dependence = 0.5;  // 0..1, of two views that have nothing in common: 0 says they err each
-                            // for itself, 1 that the second says nothing new
-  double jump_m = 0.1;      // between two looks: it may be another object of the same colours
+  double step_m = 0.01;      // a view from so much farther along is another one,
+  double growth = 0.2;       // so is one of which this part more or less is seen
+  double dependence = 0.25;  // 0..1, of two views that have nothing in common: 0 says they err each
+                             // for itself, 1 that the second says nothing new
+  double jump_m = 0.1;       // between two looks: it may be another object of the same colours
   int most_views = 8;
   float ask_at_or_below = 0.5f;  // confidence
 };

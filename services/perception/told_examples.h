@@ -19,7 +19,7 @@ struct ToldExample {
 
 /// Difference of looks beyond which an example says nothing. Fewer than 1 % of pairs of views of
 /// two products are below it (docs/model.md).
-inline constexpr double kRecognisedBelow = 2.75;
+inline constexpr double kRecognisedBelow = 3.0;
 
 class ToldExamples {
  public:

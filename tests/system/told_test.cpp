@@ -86,7 +86,8 @@ TEST_F(ToldTest, WhatAnObjectIsIsAskedOnce) {
   system.Start(tool::IntentionSpec(system.config()), tool::Supervisor::Restart::kAlways);
   ASSERT_TRUE(WaitForSessions(2)) << system.Logs();
   EXPECT_EQ(asked.size(), once) << "intention that remembers nothing";
-  EXPECT_GT(Counter("perception", "examples"), 0);
+  EXPECT_TRUE(system.RunUntil([&] { return Counter("perception", "examples") > 0; }, 5))
+      << system.Logs();
   EXPECT_EQ(Counter("perception", "examples_failed"), 0);
 }
 
