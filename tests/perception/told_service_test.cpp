@@ -1,5 +1,7 @@
 // LABEL on an in-process bus: what the user said shows in the next scenes, over restarts too.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 
@@ -198,6 +200,24 @@ TEST_F(ToldServiceTest, AnObjectThatIsNotThereIsCounted) {
   Send(label);
   See();
   EXPECT_EQ(service_->counters().labels_unmatched, 1);
+}
+
+TEST_F(ToldServiceTest, AFullDiskIsCountedAndWhatWasSaidHolds) {
+  See();
+  const int id = scene_.objects[0].id;
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit full{100, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  Send(LabelOf(0, "Mug"));
+  See();
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(service_->counters().examples_failed, 1);
+  EXPECT_EQ(service_->counters().examples_kept, 0);
+  EXPECT_EQ(Object(id).category, "Mug");
+  EXPECT_FALSE(Object(id).ask_user);
+  EXPECT_EQ(Examples(), 0);
 }
 
 TEST_F(ToldServiceTest, AFolderOfNoUseIsCountedAndPerceptionLivesOn) {
