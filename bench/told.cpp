@@ -67,6 +67,42 @@ void PrintMatches(const std::vector<Measured>& views) {
   }
 }
 
+/// What an example changes: one view is named, perception sees another.
+void PrintNaming(const std::vector<Measured>& views, float ask_at_or_below) {
+  struct Count {
+    int n = 0, renamed = 0, unasked = 0;
+  };
+  Count doubtful, same, other;
+  const EvidenceConfig config{.ask_at_or_below = ask_at_or_below};
+  for (const Measured& named : views) {
+    ToldExamples examples;
+    examples.Add({named.instance, named.category, named.look});
+    for (const Measured& seen : views) {
+      if (&seen == &named || seen.said.probabilities.empty()) continue;
+      CategoryEvidence evidence;
+      evidence.Add(seen.at, seen.look, seen.said, examples, config);
+      const Categorisation& now = evidence.Decide(examples, config);
+      const std::string& before = seen.said.probabilities.front().first;
+      const std::string& after = now.probabilities.front().first;
+      if (named.instance == seen.instance) {
+        ++same.n;
+        same.renamed += before != seen.category && after == seen.category ? 1 : 0;
+        if (!seen.said.ask_user) continue;
+        ++doubtful.n;
+        doubtful.unasked += now.ask_user ? 0 : 1;
+      } else {
+        ++other.n;
+        other.renamed += before != after && after != seen.category ? 1 : 0;
+      }
+    }
+  }
+  const auto percent = [](int part, int n) { return 100.0 * part / std::max(1, n); };
+  std::printf("of one product, %d in doubt: %.1f%% not any more; of all, %.1f%% put right\n",
+              doubtful.n, percent(doubtful.unasked, doubtful.n), percent(same.renamed, same.n));
+  std::printf("of two products, %d: %.3f%% got a wrong name from the example\n", other.n,
+              percent(other.renamed, other.n));
+}
+
 struct Score {
   int n = 0, right = 0;
   double log_loss = 0;
@@ -127,6 +163,7 @@ int main(int argc, char** argv) {
     if (!views) return std::fprintf(stderr, "%s\n", views.error().message.c_str()), 1;
     std::printf("%s: %zu views\n", argv[i], views->size());
     PrintMatches(*views);
+    PrintNaming(*views, categoriser->threshold());
     PrintEvidence(*views);
   }
   return 0;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kPitch_rad = 38 * std::numbers::pi / 180;  // of a camera whose table is not known
 constexpr double kOutermost = 0.02;                         // part of the points, at either end
 constexpr double kSmallest_m = 0.005;                       // sizes below are as this
+constexpr size_t kEnough = 2000;                            // points, of more some are left out
 constexpr int kTurns = 12;                                  // directions along the table
 
 // What two views of one thing commonly differ by (beckon-bench-told; docs/model.md).
@@ -83,7 +84,9 @@ InstanceLook LookAtInstance(const ObjectView& view) {
   std::vector<double> heights;
   std::vector<size_t> seen;
   const RgbdImage& image = view.image;
-  for (const uint32_t pixel : view.pixels) {
+  const size_t stride = 1 + view.pixels.size() / kEnough;
+  for (size_t i = 0; i < view.pixels.size(); i += stride) {
+    const uint32_t pixel = view.pixels[i];
     if (pixel >= image.depth_m.size() || !(image.depth_m[pixel] > 0)) continue;
     const int u = static_cast<int>(pixel) % image.width, v = static_cast<int>(pixel) / image.width;
     const Eigen::Vector3d p = image.Point(u, v);
