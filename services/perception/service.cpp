@@ -52,15 +52,16 @@ class Service::FrameWorker {
     for (const ToldExample& example : store_->loaded()) perceiver_.Learn(example);
   }
 
-  Outcome Work(msg::Frame frame) {
+  Outcome Work(FramePtr frame) {
     Outcome outcome;
     for (const msg::Label& label : inbox_->Take()) Hear(label, outcome);
-    outcome.repeated = outcome.labels_taken == 0 && last_frame_ && SameImage(frame, *last_frame_);
-    if (!outcome.repeated && !Perceive(frame, outcome)) return outcome;
+    outcome.idle = outcome.labels_taken == 0 && frame == last_frame_;
+    outcome.repeated = outcome.labels_taken == 0 && last_frame_ && SameImage(*frame, *last_frame_);
+    if (outcome.idle || (!outcome.repeated && !Perceive(*frame, outcome))) return outcome;
     outcome.scene = last_scene_;
-    outcome.scene.utime = frame.utime;
-    outcome.scene.frame_seq = frame.seq;
-    outcome.scene.source = frame.source;
+    outcome.scene.utime = frame->utime;
+    outcome.scene.frame_seq = frame->seq;
+    outcome.scene.source = frame->source;
     outcome.state = last_state_;
     outcome.examples = static_cast<int>(perceiver_.examples().all().size());
     last_frame_ = std::move(frame);
@@ -148,7 +149,7 @@ class Service::FrameWorker {
   std::optional<ToldStore> store_;
   const std::shared_ptr<Inbox> inbox_;
   std::deque<msg::Label> heard_;  // the newest of each, oldest first
-  std::optional<msg::Frame> last_frame_;
+  FramePtr last_frame_;
   msg::Scene last_scene_;
   std::string last_state_;
 };
@@ -205,7 +206,7 @@ Service::Service(Bus& bus, RunLoop& loop, const PerceiverConfig& config,
           status.counters.push_back({name, value});
         }
       }) {
-  worker_ = std::make_unique<LatestWorker<msg::Frame>>([this](msg::Frame frame) {
+  worker_ = std::make_unique<LatestWorker<FramePtr>>([this](FramePtr frame) {
     loop_.Post([this, alive = std::weak_ptr<bool>(alive_),
                 outcome = work_->Work(std::move(frame))]() mutable {
       if (alive.lock()) Publish(std::move(outcome));
@@ -215,7 +216,8 @@ Service::Service(Bus& bus, RunLoop& loop, const PerceiverConfig& config,
       [this, alive = std::weak_ptr<bool>(alive_)](msg::Frame frame) {
         if (!alive.lock()) return;
         ++counters_.frames;
-        worker_->Offer(std::move(frame));
+        newest_ = std::make_shared<const msg::Frame>(std::move(frame));
+        worker_->Offer(newest_);
       },
       1);
   bus_.Subscribe<msg::Label>([this, alive = std::weak_ptr<bool>(alive_)](msg::Label label) {
@@ -242,6 +244,7 @@ void Service::OnLabel(msg::Label label) {
     return;
   }
   inbox_->Put(std::move(label));
+  if (newest_) worker_->Offer(newest_);  // the view that the user spoke of, or the next
 }
 
 void Service::Publish(Outcome outcome) {
@@ -250,6 +253,7 @@ void Service::Publish(Outcome outcome) {
   counters_.examples_kept += outcome.examples_kept;
   counters_.examples_failed += static_cast<int64_t>(outcome.examples_failed.size());
   for (const std::string& failed : outcome.examples_failed) spdlog::error("{}", failed);
+  if (outcome.idle) return;
   if (!outcome.damage.empty()) {
     ++counters_.damaged;
     bus_.Refuse(Codec<msg::Frame>::kChannel, outcome.damage);

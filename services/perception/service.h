@@ -21,7 +21,8 @@ namespace beckon::perception {
 /// All of it runs in `loop`'s thread but the perceiving, which has a thread of its own that takes
 /// the newest frame and skips those it is too slow for. A frame whose image equals the last one's
 /// is not computed again: its scene is published with the new time. What LABEL says of an object
-/// holds from the next frame on; it must name a scene of this run, for ids are others in another.
+/// shows in a scene at once, of the newest frame; it must name a scene of this run, for ids are
+/// others in another.
 class Service {
  public:
   /// `bus` and `loop` must outlive this; `categoriser` is taken over.
@@ -61,6 +62,7 @@ class Service {
     msg::Scene scene;
     std::string state;
     bool repeated = false;
+    bool idle = false;    // looked for labels only, and none were new
     std::string damage;   // why the frame was refused; empty where it was not
     std::string failure;  // why perceiving it failed
     int labels_taken = 0, labels_unmatched = 0;
@@ -76,6 +78,7 @@ class Service {
   };
   class FrameWorker;
   class Inbox;
+  using FramePtr = std::shared_ptr<const msg::Frame>;
 
   void OnLabel(msg::Label label);
 
@@ -87,10 +90,11 @@ class Service {
   int64_t seq_ = 0;
   std::string state_ = "no frame yet";
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // for what is posted and comes late
-  std::deque<SceneName> published_;                             // the newest
-  std::shared_ptr<Inbox> inbox_;                                // of the worker
+  FramePtr newest_;                  // received; the worker may have it too, or be done with it
+  std::deque<SceneName> published_;  // the newest
+  std::shared_ptr<Inbox> inbox_;     // of the worker
   std::unique_ptr<FrameWorker> work_;
-  std::unique_ptr<LatestWorker<msg::Frame>> worker_;
+  std::unique_ptr<LatestWorker<FramePtr>> worker_;
   StatusReporter status_;
 };
 
