@@ -17,6 +17,7 @@ constexpr double kUnheardOf = 0.02;  // of a category that the categoriser does 
 constexpr double kTold = 0.97;       // the user may err too
 constexpr double kJumped = 0.5;      // what views from before a jump count
 constexpr double kFar_m = 0.1;       // an object carried so far has turned, more likely than not
+constexpr double kWhole = 0.7;       // of the largest view's size; less is a part
 constexpr double kGrown = 0.5;       // logarithm of the points: as much has come in sight
 
 /// 1 for one and the same view, falling to config.dependence.
@@ -136,6 +137,11 @@ void CategoryEvidence::Add(const SeenAt& at, const InstanceLook& look, Categoris
   if (static_cast<int>(views_.size()) > config.most_views) views_.erase(views_.begin());
   last_ = at;
   decided_with_ = -1;
+}
+
+bool CategoryEvidence::IsWhole(const SeenAt& at) const {
+  return std::ranges::all_of(views_,
+                             [&](const View& view) { return Size(at) >= kWhole * Size(view.at); });
 }
 
 void CategoryEvidence::Tell(Told told) {

@@ -50,6 +50,8 @@ class CategoryEvidence {
   const std::optional<Told>& told() const { return told_; }
   /// The newest view's look.
   const InstanceLook* look() const { return views_.empty() ? nullptr : &views_.back().look; }
+  /// Whether about as much of the object is seen as in any view of it.
+  bool IsWhole(const SeenAt& at) const;
   int n_views() const { return static_cast<int>(views_.size()); }
 
   /// All of it together. One view without examples and without words stays as it was categorised.

@@ -20,6 +20,10 @@ PerceiverConfig WithThreshold(PerceiverConfig config, const Categoriser* categor
   return config;
 }
 
+SeenAt At(const PerceivedObject& object) {
+  return {object.shape.centroid_C, object.shape.pixels.size()};
+}
+
 }  // namespace
 
 Perceiver::Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
@@ -70,21 +74,18 @@ SteadyObjects Perceiver::Remember(const RgbdImage& image, Segmentation& segmenta
 
 /// Only views that may change what is known of an object are categorised.
 void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
-  const auto at = [](const PerceivedObject& object) {
-    return SeenAt{object.shape.centroid_C, object.shape.pixels.size()};
-  };
   const auto view = [&](const PerceivedObject& object) {
     return ObjectView{image, object.shape.pixels, perception.segmentation.table_C};
   };
   std::vector<PerceivedObject*> fresh;
   for (auto& object : perception.objects) {
     CategoryEvidence& known = evidence_[object.id];
-    known.IsNew(at(object), config_.evidence) ? fresh.push_back(&object) : known.See(at(object));
+    known.IsNew(At(object), config_.evidence) ? fresh.push_back(&object) : known.See(At(object));
   }
   std::vector<Categorisation> said(fresh.size());
   if (categorise_) said = CategoriseEach(image, perception, fresh);
   for (size_t i = 0; i < fresh.size(); ++i) {
-    evidence_[fresh[i]->id].Add(at(*fresh[i]), LookAtInstance(view(*fresh[i])), std::move(said[i]),
+    evidence_[fresh[i]->id].Add(At(*fresh[i]), LookAtInstance(view(*fresh[i])), std::move(said[i]),
                                 examples_, config_.evidence);
   }
   for (auto& object : perception.objects) {
@@ -104,7 +105,8 @@ void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
 /// The view that the user spoke of, and some that differ from it.
 void Perceiver::MakeExample(const ObjectView& view, bool is_new, PerceivedObject& object) {
   const int n = examples_.Count(object.told->label_id);
-  if (n >= config_.views_per_object || (n > 0 && !is_new)) return;
+  const bool more = is_new && evidence_[object.id].IsWhole(At(object));
+  if (n >= config_.views_per_object || (n > 0 && !more)) return;
   const InstanceLook look = LookAtInstance(view);
   if (look.n_points == 0) return;
   examples_.Add({object.told->label_id, object.told->category, look});

@@ -100,6 +100,13 @@ TEST_F(EvidenceTest, AViewIsNewOnlyWhereItDiffersFromAllThatWereTaken) {
   EXPECT_TRUE(evidence.IsNew(At(0.005), config)) << "what jumps there may be another";
 }
 
+TEST_F(EvidenceTest, APartIsNoWholeViewHoweverNearItIs) {
+  Add(At(0, 1000), Says({{"Mug", 1.0f}}));
+  EXPECT_TRUE(evidence.IsWhole(At(0.2, 900)));
+  EXPECT_FALSE(evidence.IsWhole(At(0.2, 500)));
+  EXPECT_FALSE(evidence.IsWhole({{0, 0, 0.5}, 1000})) << "a quarter of it, from half the distance";
+}
+
 TEST_F(EvidenceTest, TheNumberOfViewsIsBounded) {
   for (int i = 0; i < 100; ++i) Add(At(0.05 * i), Says({{"Mug", 0.6f}, {"Cup", 0.4f}}));
   EXPECT_EQ(evidence.n_views(), config.most_views);
