@@ -279,6 +279,23 @@ struct TaskStatus {
   Seal seal;
 };
 
+enum class LabelState : int8_t { kGiven = 1, kRetracted = 2 };
+
+/// What the user said an object is.
+struct Label {
+  Utime utime = 0;
+  std::string label_id;
+  std::string session_id;
+  std::string user;
+  LabelState state = LabelState::kGiven;
+  std::string category = kUnknownCategory;
+  std::string source;
+  int64_t scene_seq = 0;
+  Utime scene_utime = 0;
+  int object_id = 0;
+  Seal seal;
+};
+
 struct HistoryDigest {
   std::string origin;
   int64_t highest_seq = 0;

@@ -83,6 +83,16 @@ Result<ConfigTable> LoadConfig(const AppOptions& options) {
   return ConfigTable::Load(options.config_file);
 }
 
+std::string DataFile(const std::string& name) {
+  namespace fs = std::filesystem;
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path folder = data != nullptr && *data != '\0'
+                              ? fs::path(data)
+                              : fs::path(home == nullptr ? "." : home) / ".local" / "share";
+  return (folder / "beckon" / name).string();
+}
+
 std::string SharedFile(const std::string& name) {
   namespace fs = std::filesystem;
   if (const char* share = std::getenv("BECKON_SHARE"); share != nullptr && *share != '\0') {

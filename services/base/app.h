@@ -42,4 +42,8 @@ Result<ConfigTable> LoadConfig(const AppOptions& options);
 /// installed program (../share/beckon, in the build tree too).
 std::string SharedFile(const std::string& name);
 
+/// A file that Beckon learns into, of this user: $XDG_DATA_HOME/beckon/NAME, else
+/// ~/.local/share/beckon/NAME.
+std::string DataFile(const std::string& name);
+
 }  // namespace beckon

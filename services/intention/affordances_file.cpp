@@ -26,8 +26,10 @@ Result<Affordances> ReadAffordances(const std::string& path) {
     category_table.Get(name, entry.actions);
     entries.push_back(std::move(entry));
   }
+  std::vector<std::string> unknown;
+  if (file->Has("unknown")) file->Section("unknown").Get("actions", unknown);
   if (Status read = file->Finish(); !read) return read.error();
-  auto made = Affordances::Make(std::move(actions), std::move(entries));
+  auto made = Affordances::Make(std::move(actions), std::move(entries), std::move(unknown));
   if (!made) return Error{path + ": " + made.error().message};
   return made;
 }

@@ -108,14 +108,15 @@ Status CommandLine::Run() {
   if (forget_command_->parsed())
     return ForgetHistory(history_, config->machine, SystemClock().Now());
   if (evaluate_command_->parsed() || simulate_command_->parsed() || regret_command_->parsed()) {
-    auto affordances = ReadAffordances(config->affordances);
-    if (!affordances) return affordances.error();
-    if (simulate_command_->parsed()) return WriteSimulated(simulate_, *affordances);
-    if (regret_command_->parsed()) return MeasureRegret(regret_, *affordances);
+    const auto all = ReadAffordances(config->affordances);
+    if (!all) return all.error();
+    const Affordances affordances = all->Named();  // as in every published evaluation
+    if (simulate_command_->parsed()) return WriteSimulated(simulate_, affordances);
+    if (regret_command_->parsed()) return MeasureRegret(regret_, affordances);
     evaluate_.policy = config->policy;
     evaluate_.queries = config->queries;
     if (assume_flip_ >= 0) evaluate_.config.assume_flip = assume_flip_;
-    return Evaluate(evaluate_, *affordances);
+    return Evaluate(evaluate_, affordances);
   }
   return Serve(*config);
 }

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "services/base/app.h"
@@ -30,16 +28,6 @@ std::string HostName() {
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
   return name[0] == '\0' ? "unnamed" : name.data();
-}
-
-std::string DefaultDatabase() {
-  namespace fs = std::filesystem;
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  const fs::path folder = data != nullptr && *data != '\0'
-                              ? fs::path(data)
-                              : fs::path(home == nullptr ? "." : home) / ".local" / "share";
-  return (folder / "beckon" / "beckon.db").string();
 }
 
 std::unique_ptr<Policy> PolicyOf(const ServiceConfig& config, const Affordances& affordances) {
@@ -76,7 +64,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
 }
 
 void FillDefaults(ServiceConfig& config) {
-  if (config.db.empty()) config.db = DefaultDatabase();
+  if (config.db.empty()) config.db = DataFile("beckon.db");
   if (config.affordances.empty()) config.affordances = SharedFile("affordances.toml");
   if (config.phrases.empty()) config.phrases = SharedFile("questions.en.toml");
   if (config.machine.empty()) config.machine = HostName();
@@ -142,6 +130,7 @@ struct Service::State {
   void PublishOne(const msg::Query& query) { Send(query, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Session& event) { Send(event, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) { bus.Refuse(refused.channel, refused.detail); }
 
@@ -167,6 +156,7 @@ struct Service::State {
                                         {"tasks_expired", c.expired},
                                         {"tasks_revoked", c.revoked},
                                         {"confirmations_held", c.held},
+                                        {"labels", c.labels},
                                         {"late_scenes", c.late_scenes},
                                         {"db_rows", rows ? *rows : -1},
                                         {"question_us", question_us},

@@ -29,6 +29,9 @@ void AddOptions(CLI::App& app, Options& o) {
   app.add_option("--model", o.overrides.model, "Categories, as beckon-train wrote them");
   app.add_option("--cues", o.overrides.cues,
                  "Cues that have a say: all, dissertation, or names parted by commas");
+  app.add_option(
+      "--examples", o.overrides.examples,
+      "Folder for views of objects that the user named; auto: ~/.local/share/beckon/examples");
   app.add_flag("--list-categories", o.list_categories, "Print the model's categories and leave");
   app.add_option("--threads", o.overrides.threads, "Objects categorised at a time (default 1)")
       ->check(CLI::Range(1, 64));
@@ -53,7 +56,7 @@ Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
   RunLoop loop(true);  // before threads start: it blocks signals for all of them
   auto bus = Bus::Open(lcm_url);
   if (!bus) return bus.error();
-  Service service(**bus, loop, config.perceiver, *std::move(categoriser));
+  Service service(**bus, loop, config.perceiver, *std::move(categoriser), config.learning);
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   loop.Run();
   return {};

@@ -13,9 +13,23 @@
 
 namespace beckon::perception {
 
+namespace {
+
+PerceiverConfig WithThreshold(PerceiverConfig config, const Categoriser* categoriser) {
+  if (categoriser != nullptr) config.evidence.ask_at_or_below = categoriser->threshold();
+  return config;
+}
+
+SeenAt At(const PerceivedObject& object) {
+  return {object.shape.centroid_C, object.shape.pixels.size()};
+}
+
+}  // namespace
+
 Perceiver::Perceiver(const PerceiverConfig& config, const Categoriser* categoriser)
     : Perceiver(
-          config, categoriser == nullptr ? Categorise() : [categoriser](const ObjectView& view) {
+          WithThreshold(config, categoriser),
+          categoriser == nullptr ? Categorise() : [categoriser](const ObjectView& view) {
             return categoriser->Categorise(view);
           }) {}
 
@@ -44,7 +58,7 @@ Perception Perceiver::Perceive(const RgbdImage& image) {
   perception.steps_ms.emplace_back("objects", perception.segmentation_ms - told_ms);
 
   const Stopwatch categorisation;
-  if (categorise_) CategoriseAll(image, perception);
+  CategoriseAll(image, perception);
   perception.categorisation_ms = categorisation.Milliseconds();
   return perception;
 }
@@ -58,53 +72,92 @@ SteadyObjects Perceiver::Remember(const RgbdImage& image, Segmentation& segmenta
   return {ids, segmentation.labels};
 }
 
-bool Perceiver::SameView(const ExtractedObject& shape, const Remembered& remembered) const {
-  const double before = static_cast<double>(remembered.n_points);
-  const double now = static_cast<double>(shape.pixels.size());
-  return (shape.centroid_C - remembered.centroid_C).norm() <= config_.recategorise_step_m &&
-         std::abs(now - before) <= config_.recategorise_growth * before;
+/// Only views that may change what is known of an object are categorised.
+void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
+  const auto view = [&](const PerceivedObject& object) {
+    return ObjectView{image, object.shape.pixels, perception.segmentation.table_C};
+  };
+  std::vector<PerceivedObject*> fresh;
+  for (auto& object : perception.objects) {
+    CategoryEvidence& known = evidence_[object.id];
+    known.IsNew(At(object), config_.evidence) ? fresh.push_back(&object) : known.See(At(object));
+  }
+  std::vector<Categorisation> said(fresh.size());
+  if (categorise_) said = CategoriseEach(image, perception, fresh);
+  for (size_t i = 0; i < fresh.size(); ++i) {
+    evidence_[fresh[i]->id].Add(At(*fresh[i]), LookAtInstance(view(*fresh[i])), std::move(said[i]),
+                                examples_, config_.evidence);
+  }
+  for (auto& object : perception.objects) {
+    const bool is_new = std::ranges::find(fresh, &object) != fresh.end();
+    object.told = evidence_[object.id].told();
+    if (object.told) MakeExample(view(object), is_new, object);
+  }
+  for (auto& object : perception.objects) {
+    object.category = evidence_[object.id].Decide(examples_, config_.evidence);
+    object.categorised = !object.category.probabilities.empty();
+  }
+  std::erase_if(evidence_, [this](const auto& entry) {
+    return config_.remember && !memory_.Remembers(entry.first);
+  });
 }
 
-void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
-  std::vector<PerceivedObject*> unseen;
-  for (auto& object : perception.objects) {
-    const auto known = remembered_.find(object.id);
-    if (known != remembered_.end() && SameView(object.shape, known->second)) {
-      object.category = known->second.category;
-    } else {
-      unseen.push_back(&object);
-    }
-  }
+/// The view that the user spoke of, and some that differ from it.
+void Perceiver::MakeExample(const ObjectView& view, bool is_new, PerceivedObject& object) {
+  const int n = examples_.Count(object.told->label_id);
+  const bool more = is_new && evidence_[object.id].IsWhole(At(object));
+  if (n >= config_.views_per_object || (n > 0 && !more)) return;
+  const InstanceLook look = LookAtInstance(view);
+  if (look.n_points == 0) return;
+  examples_.Add({object.told->label_id, object.told->category, look});
+  object.is_example = true;
+}
 
+std::vector<Categorisation> Perceiver::CategoriseEach(
+    const RgbdImage& image, const Perception& perception,
+    const std::vector<PerceivedObject*>& objects) const {
+  std::vector<Categorisation> said(objects.size());
   std::atomic<size_t> next = 0;
   std::mutex failure_mutex;
   std::exception_ptr failure;
   auto work = [&] {
     try {
-      for (size_t i; (i = next++) < unseen.size();) {
-        unseen[i]->category =
-            categorise_({image, unseen[i]->shape.pixels, perception.segmentation.table_C});
+      for (size_t i; (i = next++) < objects.size();) {
+        said[i] = categorise_({image, objects[i]->shape.pixels, perception.segmentation.table_C});
       }
     } catch (...) {  // must not leave a thread
       std::lock_guard lock(failure_mutex);
       failure = std::current_exception();
     }
   };
-  const size_t n_threads = std::min<size_t>(config_.threads, unseen.size());
+  const size_t n_threads = std::min<size_t>(config_.threads, objects.size());
   std::vector<std::jthread> others;
   for (size_t i = 1; i < n_threads; ++i) others.emplace_back(work);
   work();
   others.clear();  // joins
   if (failure) std::rethrow_exception(failure);
+  return said;
+}
 
-  for (PerceivedObject* object : unseen) {
-    remembered_[object->id] = {object->shape.centroid_C, object->shape.pixels.size(),
-                               object->category};
-  }
-  for (auto& object : perception.objects) {
-    object.categorised = !object.category.probabilities.empty();
-  }
-  std::erase_if(remembered_, [this](const auto& entry) { return !memory_.Remembers(entry.first); });
+std::optional<std::string> Perceiver::Tell(int id, const Told& told) {
+  const auto known = evidence_.find(id);
+  if (known == evidence_.end()) return std::nullopt;
+  const std::optional<Told> before = known->second.told();
+  std::string outdated;
+  if (before && before->category != told.category && before->label_id != told.label_id)
+    outdated = before->label_id;
+  if (!outdated.empty()) Retract(outdated);
+  const bool is_other = std::ranges::any_of(examples_.all(), [&](const ToldExample& e) {
+    return e.label_id == told.label_id && e.category != told.category;
+  });
+  if (is_other) examples_.Remove(told.label_id);
+  evidence_[id].Tell(told);
+  return outdated;
+}
+
+void Perceiver::Retract(const std::string& label_id) {
+  for (auto& [id, evidence] : evidence_) evidence.Retract(label_id);
+  examples_.Remove(label_id);
 }
 
 }  // namespace beckon::perception

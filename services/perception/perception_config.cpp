@@ -75,6 +75,11 @@ Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides&
   categoriser.Get("cues", config.cues);
   categoriser.Get("unknown_prior", config.unknown_prior, -1, 1000);
   categoriser.Get("ask_at_or_below", config.ask_at_or_below, -1, 1);
+  ConfigTable learning = root.Section("learning");
+  learning.Get("folder", config.learning.folder);
+  learning.Get("most_views", config.learning.most_views, 1, 1'000'000);
+  learning.Get("views_per_object", config.perceiver.views_per_object, 1, 100);
+  learning.Get("dependence", config.perceiver.evidence.dependence, 0, 1);
   if (Status status = root.Finish(); !status) return status.error();
   if (!overrides.segmentation.empty()) {
     auto method = ParseSegmentationMethod(overrides.segmentation);
@@ -84,6 +89,8 @@ Result<PerceptionConfig> ReadPerceptionConfig(ConfigTable root, const Overrides&
   if (overrides.no_categories) config.categories = false;
   if (!overrides.model.empty()) config.model = overrides.model;
   if (!overrides.cues.empty()) config.cues = overrides.cues;
+  if (!overrides.examples.empty()) config.learning.folder = overrides.examples;
+  if (config.learning.folder == "auto") config.learning.folder = DataFile("examples");
   if (overrides.threads > 0) config.perceiver.threads = overrides.threads;
   return config;
 }

@@ -6,6 +6,7 @@
 
 #include "services/base/config.h"
 #include "services/perception/perceiver.h"
+#include "services/perception/told_store.h"
 
 namespace beckon::perception {
 
@@ -17,6 +18,7 @@ struct PerceptionConfig {
   double unknown_prior =
       -1;  // factor on the probability of "Unknown"; negative: as the model has it
   double ask_at_or_below = -1;  // confidence 0..1; negative: as the model has it
+  ToldStoreConfig learning;     // no folder: what the user says is remembered in this run alone
 };
 
 /// What the command line says over the file.
@@ -24,6 +26,7 @@ struct Overrides {
   std::string segmentation;  // empty: as configured
   std::string model;         // the same
   std::string cues;          // the same
+  std::string examples;      // the same
   bool no_categories = false;
   int threads = 0;  // 0: as configured
 };

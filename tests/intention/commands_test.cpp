@@ -60,9 +60,10 @@ TEST_F(CommandsTest, ShippedAffordancesLoad) {
   const auto affordances =
       ReadAffordances(std::string(BECKON_SOURCE_DIR) + "/services/intention/affordances.toml");
   ASSERT_TRUE(affordances.ok()) << affordances.error().message;
-  EXPECT_EQ(affordances->categories().size(), 11u);
+  EXPECT_EQ(affordances->Named().categories().size(), 11u);
   EXPECT_EQ(affordances->actions().size(), 7u);
-  EXPECT_EQ(affordances->pair_count(), 36);
+  EXPECT_EQ(affordances->Named().pair_count(), 36);
+  EXPECT_EQ(affordances->categories().size(), 12u) << "with what can be done with unknown objects";
   EXPECT_EQ(Run({"--check-config"}), "");
 }
 

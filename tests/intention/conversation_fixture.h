@@ -19,7 +19,11 @@ struct Wish {
 
 class Desk {
  public:
-  explicit Desk(FakeMemory& the_memory) : memory(the_memory) { Restart(); }
+  /// `unknown`: what can be done with objects of no category.
+  explicit Desk(FakeMemory& the_memory, std::vector<std::string> unknown = {})
+      : affordances(TestAffordances(std::move(unknown))), memory(the_memory) {
+    Restart();
+  }
 
   /// As after kill -9: a new process over the same memory.
   void Restart() {
@@ -33,6 +37,7 @@ class Desk {
       if (const auto* s = std::get_if<msg::Session>(&action)) events.push_back(*s);
       if (const auto* t = std::get_if<msg::Task>(&action)) tasks.push_back(*t);
       if (const auto* t = std::get_if<msg::TaskStatus>(&action)) statuses.push_back(*t);
+      if (const auto* l = std::get_if<msg::Label>(&action)) labels.push_back(*l);
       if (const auto* r = std::get_if<Refused>(&action)) refusals.push_back(*r);
     }
   }
@@ -41,6 +46,7 @@ class Desk {
     events.clear();
     tasks.clear();
     statuses.clear();
+    labels.clear();
     refusals.clear();
   }
 
@@ -138,7 +144,7 @@ class Desk {
     return {};
   }
 
-  const Affordances affordances = TestAffordances();
+  const Affordances affordances;
   const std::unique_ptr<Policy> policy = MakeAdaptivePolicy({});
   FakeMemory& memory;
   std::unique_ptr<Conversation> conversation;
@@ -148,6 +154,7 @@ class Desk {
   std::vector<msg::Session> events;
   std::vector<msg::Task> tasks;
   std::vector<msg::TaskStatus> statuses;
+  std::vector<msg::Label> labels;
   std::vector<Refused> refusals;
 };
 

@@ -14,7 +14,7 @@
 namespace beckon::intention {
 
 /// The dissertation's 11 categories, 7 actions, 36 pairs.
-inline Affordances TestAffordances() {
+inline Affordances TestAffordances(std::vector<std::string> unknown = {}) {
   auto made = Affordances::Make({{"Drink", "drink from"},
                                  {"Grasp", "grasp"},
                                  {"Move", "move"},
@@ -32,7 +32,8 @@ inline Affordances TestAffordances() {
                                  {"SprayCan", {"Grasp"}},
                                  {"Tin", {"Grasp", "Move", "Open", "Pour"}},
                                  {"Tube", {"Grasp", "Squeeze"}},
-                                 {"Tub", {"Grasp", "Open", "Push"}}});
+                                 {"Tub", {"Grasp", "Open", "Push"}}},
+                                std::move(unknown));
   EXPECT_TRUE(made.ok());
   return *made;
 }

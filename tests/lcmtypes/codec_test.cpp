@@ -8,6 +8,7 @@
 #include <beckon/frame_t.hpp>
 #include <beckon/history_t.hpp>
 #include <beckon/interface_t.hpp>
+#include <beckon/label_t.hpp>
 #include <beckon/poses_t.hpp>
 #include <beckon/query_t.hpp>
 #include <beckon/scene_t.hpp>
@@ -226,6 +227,14 @@ TEST(Codec, RefusesValuesThatBreakTheRules) {
                       [](auto& p) { p.poses[0].parts.resize(9, p.poses[0].parts[0]); }));
   EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.confusion[0][0] = 0.5f; }));
   EXPECT_TRUE(refused(msg::ExampleInterface(), [](auto& i) { i.seconds_per_question = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.label_id.clear(); }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.category.clear(); }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.category = "../../etc"; }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.user = "../../etc"; }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.object_id = 0; }));
+  EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.scene_seq = 0; }));
+  EXPECT_TRUE(
+      refused(msg::ExampleLabel(), [](auto& l) { l.state = static_cast<msg::LabelState>(3); }));
   EXPECT_TRUE(refused(msg::ExampleFrame(), [](auto& f) { f.width = 0; }));
   EXPECT_TRUE(refused(msg::ExampleFrame(), [&](auto& f) { f.intrinsics.fx = nan; }));
 }
@@ -242,14 +251,15 @@ TEST(Codec, FingerprintsAreLocked) {
                                                {"task_t", task_t::getHash()},
                                                {"task_status_t", task_status_t::getHash()},
                                                {"history_t", history_t::getHash()},
-                                               {"status_t", status_t::getHash()}};
+                                               {"status_t", status_t::getHash()},
+                                               {"label_t", label_t::getHash()}};
   const std::map<std::string, uint64_t> locked = {
-      {"answer_t", 0xa22727a8afbaf8c6},  {"frame_t", 0x5b22eba1617c64a5},
-      {"history_t", 0xcd16f6d015811a6c}, {"interface_t", 0x8fbf178510e3e991},
-      {"poses_t", 0x715036521295f425},   {"query_t", 0xcacf0cc24ccdf064},
-      {"scene_t", 0x4ef49dbaddf4c015},   {"session_t", 0x1e39e1f4c26e2b7c},
-      {"status_t", 0x11a1e4a40922e1e7},  {"task_status_t", 0xc7536171eaec0f69},
-      {"task_t", 0xc938a574d229bb67}};
+      {"answer_t", 0xa22727a8afbaf8c6},      {"frame_t", 0x5b22eba1617c64a5},
+      {"history_t", 0xcd16f6d015811a6c},     {"interface_t", 0x8fbf178510e3e991},
+      {"label_t", 0x7d3b00c4161fd9b2},       {"poses_t", 0x715036521295f425},
+      {"query_t", 0xcacf0cc24ccdf064},       {"scene_t", 0x4ef49dbaddf4c015},
+      {"session_t", 0x1e39e1f4c26e2b7c},     {"status_t", 0x11a1e4a40922e1e7},
+      {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67}};
   EXPECT_EQ(now, locked);
 }
 

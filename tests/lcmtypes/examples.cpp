@@ -176,6 +176,20 @@ TaskStatus ExampleTaskStatus() {
           .seal = ExampleSeal()};
 }
 
+Label ExampleLabel() {
+  return {.utime = 5,
+          .label_id = "s/label/4",
+          .session_id = "s",
+          .user = "ann",
+          .state = LabelState::kGiven,
+          .category = "Mug",
+          .source = "example",
+          .scene_seq = 2,
+          .scene_utime = 1,
+          .object_id = 4,
+          .seal = ExampleSeal()};
+}
+
 History ExampleHistory() {
   return {.utime = 1,
           .machine = "kitchen",

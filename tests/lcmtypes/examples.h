@@ -16,6 +16,7 @@ Answer ExampleAnswer();
 Session ExampleSession();
 Task ExampleTask();
 TaskStatus ExampleTaskStatus();
+Label ExampleLabel();
 History ExampleHistory();
 Status ExampleStatus();
 
@@ -23,7 +24,7 @@ Status ExampleStatus();
 inline auto AllExamples() {
   return std::make_tuple(ExampleFrame(), ExampleScene(), ExamplePoses(), ExampleInterface(),
                          ExampleQuery(), ExampleAnswer(), ExampleSession(), ExampleTask(),
-                         ExampleTaskStatus(), ExampleHistory(), ExampleStatus());
+                         ExampleTaskStatus(), ExampleLabel(), ExampleHistory(), ExampleStatus());
 }
 
 }  // namespace beckon::msg

@@ -54,6 +54,10 @@ TEST(PerceptionConfig, TheShippedFileHoldsTheDefaults) {
             defaults.perceiver.tracker.settle_after_frames);
   EXPECT_EQ(read->perceiver.recategorise_step_m, defaults.perceiver.recategorise_step_m);
   EXPECT_EQ(read->perceiver.recategorise_growth, defaults.perceiver.recategorise_growth);
+  EXPECT_EQ(read->learning.folder, defaults.learning.folder);
+  EXPECT_EQ(read->learning.most_views, defaults.learning.most_views);
+  EXPECT_EQ(read->perceiver.views_per_object, defaults.perceiver.views_per_object);
+  EXPECT_EQ(read->perceiver.evidence.dependence, defaults.perceiver.evidence.dependence);
   EXPECT_EQ(read->perceiver.threads, defaults.perceiver.threads);
   EXPECT_EQ(read->categories, defaults.categories);
   EXPECT_EQ(read->model, defaults.model);

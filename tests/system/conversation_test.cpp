@@ -225,7 +225,7 @@ TEST_F(SystemTest, GarbageOnEveryChannelIsRefusedAndTheConversationGoesOn) {
   ASSERT_TRUE(system.RunUntil(
       [&] {
         for (const char* name : {"FRAME", "SCENE", "POSES", "INTERFACE", "QUERY", "ANSWER",
-                                 "SESSION", "TASK", "TASK_STATUS", "HISTORY", "STATUS"}) {
+                                 "SESSION", "TASK", "TASK_STATUS", "LABEL", "HISTORY", "STATUS"}) {
           const std::string channel = std::string("BECKON_") + name;
           const auto bytes = Garbage(real[channel], engine);
           raw.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));

@@ -35,7 +35,10 @@ ProcessSpec TruthSpec(const FleetConfig& config) {
 }
 
 ProcessSpec PerceptionSpec(const FleetConfig& config) {
-  return Service(config, "perception", "beckon-perception", {});
+  std::vector<std::string> args{"--examples", config.ExamplesFolder()};
+  if (!config.perception_config.empty())
+    args.insert(args.end(), {"--config", config.perception_config});
+  return Service(config, "perception", "beckon-perception", std::move(args));
 }
 
 ProcessSpec PoseSpec(const FleetConfig& config) {

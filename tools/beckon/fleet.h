@@ -11,16 +11,19 @@ struct FleetConfig {
   std::string bin_dir;  // of the programs
   std::string run_dir;  // logs, and what else the run leaves
   std::string lcm_url;
-  std::string input;   // file for capture; empty = the embedded scene
-  int seed = 1;        // of the embedded scene
-  std::string db;      // of intention
-  std::string policy;  // of intention; empty = its default
+  std::string input;  // file for capture; empty = the embedded scene
+  int seed = 1;       // of the embedded scene
+  std::string db;     // of intention; perception keeps what it is told in ExamplesFolder()
+  std::string perception_config;  // file; empty = its defaults
+  std::string policy;             // of intention; empty = its default
   std::string user;
   int sessions = 0;    // 0 = until the user leaves
   double think_s = 0;  // of the simulated user
   double flip = 0;     // of the simulated user
 
   std::string TruthFile() const { return run_dir + "/truth.json"; }
+  /// Beside the database.
+  std::string ExamplesFolder() const { return db + ".examples"; }
 };
 
 /// Capture, publishing.

@@ -16,6 +16,7 @@ int Find(const std::vector<Named>& sorted, const std::string& name) {
 
 /// Names travel in messages, words stand in sentences.
 constexpr size_t kLongest = 64;
+constexpr char kUnknown[] = "Unknown";
 
 bool IsText(const std::string& text) {
   return text.size() <= kLongest && std::none_of(text.begin(), text.end(), [](char c) {
@@ -47,7 +48,8 @@ Status SortAndCheck(std::vector<Named>& all, const std::string& what, size_t mos
 
 }  // namespace
 
-Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<Entry> entries) {
+Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<Entry> entries,
+                                      std::vector<std::string> unknown) {
   Affordances made;
   if (Status ok = SortAndCheck(actions, "action", kMaxActions); !ok) return ok.error();
   for (const Action& action : actions) {
@@ -61,9 +63,16 @@ Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<E
   }
   made.actions_ = std::move(actions);
   for (const Entry& entry : entries) {
-    if (entry.category == "Unknown") {
-      return Error{"affordances: 'Unknown' is reserved for objects of no category"};
+    if (entry.category == kUnknown) {
+      return Error{
+          "affordances: 'Unknown' is reserved for objects of no category; what can be done with "
+          "them "
+          "stands in [unknown]"};
     }
+  }
+  if (entries.empty()) return Error{"affordances: expected at least one category, found none"};
+  if (!unknown.empty()) entries.push_back({kUnknown, std::move(unknown)});
+  for (const Entry& entry : entries) {
     Category category{entry.category, {}};
     for (const std::string& name : entry.actions) {
       const int action = made.FindAction(name);
@@ -90,6 +99,14 @@ Result<Affordances> Affordances::Make(std::vector<Action> actions, std::vector<E
 
 int Affordances::FindCategory(const std::string& name) const { return Find(categories_, name); }
 int Affordances::FindAction(const std::string& name) const { return Find(actions_, name); }
+
+int Affordances::unknown() const { return FindCategory(kUnknown); }
+
+Affordances Affordances::Named() const {
+  Affordances named = *this;
+  std::erase_if(named.categories_, [](const Category& c) { return c.name == kUnknown; });
+  return named;
+}
 
 bool Affordances::Affords(int category, int action) const {
   if (category < 0 || category >= static_cast<int>(categories_.size())) return false;

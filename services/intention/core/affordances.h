@@ -32,7 +32,12 @@ class Affordances {
 
   /// Fails on an empty table, a doubled or empty name, an action without words, a category that
   /// affords nothing, the reserved name "Unknown", and more than 64 of either.
-  static Result<Affordances> Make(std::vector<Action> actions, std::vector<Entry> entries);
+  /// `unknown`: what can be done with any object, also one of no category; where there is
+  /// something, "Unknown" is a category like the others.
+  static Result<Affordances> Make(std::vector<Action> actions, std::vector<Entry> entries,
+                                  std::vector<std::string> unknown = {});
+  /// The same without what can be done with objects of no category.
+  Affordances Named() const;
 
   const std::vector<Category>& categories() const { return categories_; }
   const std::vector<Action>& actions() const { return actions_; }
@@ -41,6 +46,11 @@ class Affordances {
   int FindCategory(const std::string& name) const;
   int FindAction(const std::string& name) const;
   bool Affords(int category, int action) const;
+  /// Index of the category of objects that are of no other, or -1 where nothing can be done with
+  /// them.
+  int unknown() const;
+  /// Whether an index is that of a category proper: not -1, not unknown().
+  bool IsNamed(int category) const { return category >= 0 && category != unknown(); }
   /// Number of (category, action) pairs.
   int pair_count() const;
 

@@ -72,15 +72,19 @@ Conversation::Talk* Conversation::Find(const msg::Session& request) {
   return found->second.get();
 }
 
-/// Publishes what the interview came to.
 void Conversation::Advance(Talk& talk, Utime now) {
+  TellLabels(talk, now);
+  Put(talk, now);
+}
+
+void Conversation::Put(Talk& talk, Utime now) {
   const Interview::Outcome& outcome = talk.interview->outcome();
   if (const auto* accepted = std::get_if<AcceptedTask>(&outcome))
     return Confirm(talk, *accepted, now);
   if (const auto* gave_up = std::get_if<GaveUp>(&outcome)) {
     if (gave_up->unclear && talk.interview->StartOver()) {
       talk.notice += Finished(config_.phrases.start_again) + " ";
-      return Advance(talk, now);
+      return Put(talk, now);
     }
     const std::string notice = std::exchange(talk.notice, {});
     const bool bare = std::ranges::all_of(talk.table->objects(), &Followed::gone);

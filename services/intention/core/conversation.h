@@ -26,10 +26,13 @@ struct ConversationConfig {
   Utime announce_period = kSecond;
   Utime task_period = kSecond / 2;
   Utime task_lifetime = 30 * kSecond;
-  Utime scene_max_age = 5 * kSecond;  // since it arrived
-  Utime pose_wait = kSecond;          // most that the first query waits for poses, likewise
-  double pose_place_m = 0.10;         // most between a pose and the object it is for
-  int max_sessions = 16;              // users at a time
+  Utime label_period = kSecond / 2;
+  Utime label_lifetime = 30 * kSecond;   // after its session; a label that perception took is over
+  Utime retract_lifetime = 5 * kSecond;  // nothing shows that it was heard
+  Utime scene_max_age = 5 * kSecond;     // since it arrived
+  Utime pose_wait = kSecond;             // most that the first query waits for poses, likewise
+  double pose_place_m = 0.10;            // most between a pose and the object it is for
+  int max_sessions = 16;                 // users at a time
   LabelMatchConfig labels;
   FollowConfig follow;  // of the table while a session lasts
   Phrases phrases = English();
@@ -42,7 +45,8 @@ struct Refused {
 };
 
 /// Unsealed messages, to be published in this order.
-using Outgoing = std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, Refused>;
+using Outgoing =
+    std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, msg::Label, Refused>;
 using Actions = std::vector<Outgoing>;
 
 struct ConversationCounters {
@@ -56,6 +60,7 @@ struct ConversationCounters {
   int64_t expired = 0;
   int64_t revoked = 0;             // tasks whose object went or moved before a robot took them
   int64_t held = 0;                // confirmations that waited for their object to be seen
+  int64_t labels = 0;              // told to perception, or taken back, the first time
   int64_t late_scenes = 0;         // older than one that was there already
   int64_t unknown_categories = 0;  // objects of sessions, of a category not in the affordances
 };
@@ -87,6 +92,12 @@ class Conversation {
  private:
   struct Talk;         // a running session
   struct PendingTask;  // published and not yet acknowledged
+  /// Published, and not yet seen in a SCENE.
+  struct PendingLabel {
+    msg::Label label;
+    Utime sent = 0;
+    Utime until = 0;  // 0: as long as its session runs
+  };
   using RequestIdentity = std::tuple<msg::SessionKind, std::string, std::string, Utime>;
 
   void Start(const msg::Session& request, Utime now);
@@ -112,7 +123,19 @@ class Conversation {
   bool IsFresh(const SceneFollower& table, Utime now) const;
   std::vector<Talk*> Talks();
   void BeginWaiting(Utime now);
+  /// Tells perception what the user said the objects are: what is new, and what was taken back.
+  void TellLabels(Talk& talk, Utime now);
+  /// The session is over, and its labels are not kept.
+  void RetractLabels(Talk& talk, Utime now);
+  void EndLabels(const Talk& talk, Utime now);
+  void SendLabel(const Talk& talk, const LabelRecord& said, int object, msg::LabelState state,
+                 Utime now);
+  /// Says by which id perception knows the object, where the newest scene shows it.
+  void PointAt(const Talk& talk, int object, msg::Label& label) const;
+  void RepeatLabels(Utime now);
   void Advance(Talk& talk, Utime now);
+  /// Publishes what the interview came to.
+  void Put(Talk& talk, Utime now);
   void Confirm(Talk& talk, const AcceptedTask& accepted, Utime now);
   void Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels);
   void End(std::string user);
@@ -146,6 +169,7 @@ class Conversation {
   ConversationCounters counters_;
   std::map<std::string, std::unique_ptr<Talk>> talks_;  // by user
   std::map<std::string, PendingTask> tasks_;            // by task id
+  std::map<std::string, PendingLabel> labels_;          // by label id
   std::map<std::string, DeviceModel> devices_;
   std::deque<RequestIdentity> seen_;          // the last few requests
   std::deque<msg::Session> ended_;            // the last few outcomes, newest at the back

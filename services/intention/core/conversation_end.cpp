@@ -69,6 +69,7 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   record.present = talk.interview->Present();
   record.answers = talk.interview->Answers();
   const msg::Task task = MakeTask(talk, accepted, now);
+  EndLabels(talk, now);
   const auto committed = memory_.Commit(record, LabelsOf(talk, now), task);
   if (!committed) {
     return Abandon(talk,
@@ -103,6 +104,7 @@ void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool 
       Refuse(kSessionChannel, kept.error().message);
     }
   }
+  keep_labels ? EndLabels(talk, now) : RetractLabels(talk, now);
   msg::Session event = Event(msg::SessionKind::kAbandoned, now);
   event.session_id = talk.session_id;
   event.user = talk.user;
@@ -127,6 +129,7 @@ void Conversation::Stop(const msg::Session& request, Utime now) {
   event.user = request.user;
   event.text = Finished(config_.phrases.stopped);
   Announce(event, now);
+  for (Talk* talk : Talks()) RetractLabels(*talk, now);
   talks_.clear();
   if (Status set = memory_.SetStopped(true, now); !set)
     Refuse(kSessionChannel, set.error().message);
@@ -210,6 +213,7 @@ Actions Conversation::Tick(Utime now) {
     Announce(msg::Session(latest_), now);
   }
   RepeatTasks(now);
+  RepeatLabels(now);
   return Taken();
 }
 

@@ -21,6 +21,7 @@ struct Conversation::Talk {
   Utime ask_by = 0;                      // with or without poses
   std::vector<std::string> remembered;   // by object of the table: its category, or empty
   std::map<int, msg::ObjectPose> poses;  // by object of the table
+  std::map<int, LabelRecord> told;       // to perception, by object of the table
   std::unique_ptr<Interview> interview;
   std::optional<msg::Query> query;  // nothing while it waits
   int64_t put = 0;                  // Interview::put of the query

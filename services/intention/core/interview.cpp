@@ -303,10 +303,10 @@ std::vector<GivenLabel> Interview::Labels() const {
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
     const int category = opinions_[i].category;
     // Refused so far is remembered as unknown: not asked about again before every known task is.
-    const bool refused = category < 0 && !opinions_[i].refused.empty();
+    const bool named = affordances_.IsNamed(category);
+    const bool refused = !named && !opinions_[i].refused.empty();
     if (!opinions_[i].settled && !refused) continue;
-    labels.push_back(
-        {i, category < 0 ? msg::kUnknownCategory : affordances_.categories()[category].name});
+    labels.push_back({i, named ? affordances_.categories()[category].name : msg::kUnknownCategory});
   }
   return labels;
 }

@@ -65,8 +65,9 @@ struct GivenLabel {
 };
 
 /// Categories of the scene that the affordances do not know count as "Unknown". Objects in doubt
-/// are asked about first, the likeliest categories only. Where no known task is left, every object
-/// is asked about until it is named or all categories were refused, unknown ones first.
+/// are asked about first, the likeliest categories only. One of no category affords what the
+/// affordances say of unknown ones. Where no task is left, every object is asked about until it is
+/// named or all categories were refused, unknown ones first.
 class Interview {
  public:
   Interview(const Affordances& affordances, const Policy& policy, InterviewInput input);
@@ -131,7 +132,7 @@ class Interview {
 
   /// What is known of an object after the steps.
   struct Opinion {
-    int category = -1;      // index in Affordances, -1 unknown
+    int category = -1;      // index in Affordances; -1: unknown, and affords nothing
     bool in_doubt = false;  // perception wants it asked about
     bool remembered =
         false;             // the user named it, or refused categories for it, in an earlier session
@@ -156,6 +157,7 @@ class Interview {
   void Apply(const WhatIsIt& step);
   void Apply(const RefusedAll& step);
   void Refuse(int object, const std::vector<int>& categories);
+  /// `category`: -1 counts as Affordances::unknown().
   void Relabel(int object, int category);
   void AskTask();
   /// `in_doubt`: before any task, not because every task was refused.

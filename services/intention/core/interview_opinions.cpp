@@ -22,7 +22,8 @@ void Interview::StartOpinions() {
     opinion.remembered = !remembered.empty();
     opinion.in_doubt = object.ask_user && !opinion.remembered;
     const std::string& name = opinion.remembered ? remembered : object.category;
-    opinion.category = opinion.in_doubt ? -1 : affordances_.FindCategory(name);
+    const int category = affordances_.FindCategory(name);
+    opinion.category = opinion.in_doubt ? -1 : category < 0 ? affordances_.unknown() : category;
   }
 }
 
@@ -52,14 +53,17 @@ void Interview::Refuse(int object, const std::vector<int>& categories) {
   opinion.refused.insert(opinion.refused.end(), categories.begin(), categories.end());
   opinion.settled = Left(object).empty();
   const bool was_refused = std::count(categories.begin(), categories.end(), opinion.category) > 0;
-  if (was_refused) Relabel(object, -1);
+  // Nothing is done with an object in doubt before it was asked about.
+  const bool was_in_doubt = opinion.category < 0 && opinion.refused.size() >= FirstOffers(object);
+  if (was_refused || was_in_doubt || opinion.settled) Relabel(object, -1);
 }
 
 void Interview::Relabel(int object, int category) {
   Opinion& opinion = opinions_[object];
+  if (category < 0) category = affordances_.unknown();
   if (opinion.category == category) return;
   opinion.category = category;
-  // Nothing can be done with an unknown object: what was refused stays refused.
+  // Where nothing can be done with an unknown object, what was refused stays refused.
   if (category < 0) return;
   // Answers about what the object was taken for say nothing of it any more. A no still speaks of
   // the other objects in question.
@@ -85,7 +89,8 @@ std::vector<int> Interview::Left(int object) const {
   const auto& refused = opinions_[object].refused;
   std::vector<int> left;
   const auto add = [&](int category) {
-    if (category < 0 || std::count(refused.begin(), refused.end(), category) > 0) return;
+    if (!affordances_.IsNamed(category) || std::count(refused.begin(), refused.end(), category) > 0)
+      return;
     if (std::count(left.begin(), left.end(), category) == 0) left.push_back(category);
   };
   for (const auto& p : input_.table[object].object.probabilities) {
@@ -97,10 +102,11 @@ std::vector<int> Interview::Left(int object) const {
 
 size_t Interview::FirstOffers(int object) const {
   const auto& probabilities = input_.table[object].object.probabilities;
-  const bool has_opinion =
-      std::any_of(probabilities.begin(), probabilities.end(),
-                  [&](const auto& p) { return affordances_.FindCategory(p.category) >= 0; });
-  return has_opinion ? kFirstOffers : affordances_.categories().size();
+  const bool has_opinion = std::any_of(
+      probabilities.begin(), probabilities.end(),
+      [&](const auto& p) { return affordances_.IsNamed(affordances_.FindCategory(p.category)); });
+  const size_t all = affordances_.categories().size() - (affordances_.unknown() < 0 ? 0 : 1);
+  return has_opinion ? kFirstOffers : all;
 }
 
 std::vector<int> Interview::Offer(int object) const {
@@ -135,7 +141,8 @@ int Interview::NextToRecheck() const {
   int next = -1;
   const auto later = [&](int i) {
     const Opinion& opinion = opinions_[i];
-    return std::tuple(opinion.category >= 0, opinion.remembered, input_.table[i].object.confidence);
+    return std::tuple(affordances_.IsNamed(opinion.category), opinion.remembered,
+                      input_.table[i].object.confidence);
   };
   for (int i = 0; i < static_cast<int>(opinions_.size()); ++i) {
     if (input_.table[i].gone || opinions_[i].settled) continue;

@@ -12,8 +12,8 @@
 
 namespace beckon::intention {
 
-/// A category's word. {one} and {many} may differ from case to case (Unknown: "unbekannte Objekt",
-/// dative "unbekannten Objekt").
+/// A category's word. {one} and {many} may differ from case to case ("Mensch",
+/// dative "Menschen").
 struct NounWord {
   std::string gender;  // a key of Phrases::genders
   std::string one;

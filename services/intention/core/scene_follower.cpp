@@ -8,7 +8,12 @@
 namespace beckon::intention {
 
 SceneFollower::SceneFollower(const msg::Scene& first, Utime now, const FollowConfig& config)
-    : config_(config), seen_(now), source_(first.source), seq_(first.seq), X_WC_(first.X_WC) {
+    : config_(config),
+      seen_(now),
+      source_(first.source),
+      seq_(first.seq),
+      utime_(first.utime),
+      X_WC_(first.X_WC) {
   for (const msg::SceneObject& object : first.objects) Add(object);
 }
 
@@ -18,7 +23,12 @@ void SceneFollower::Add(const msg::SceneObject& object) {
   // Seen in every scene and needed by nobody here.
   objects_.back().object.points_C.clear();
   objects_.back().object.outline_px.clear();
-  tracks_.push_back({object.id, {}});
+  tracks_.push_back({object.id, object.probabilities, {}});
+}
+
+int SceneFollower::IdNow(int object) const {
+  const auto i = static_cast<size_t>(object);
+  return objects_[i].seen_W ? tracks_[i].id : 0;
 }
 
 bool SceneFollower::Near(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -37,6 +47,7 @@ bool SceneFollower::See(const msg::Scene& scene, Utime now) {
   }
   source_ = scene.source;
   seq_ = scene.seq;
+  utime_ = scene.utime;
   seen_ = now;
   X_WC_ = scene.X_WC;
   const Matches matches = Match(scene);
@@ -67,7 +78,10 @@ SceneFollower::Matches SceneFollower::Match(const msg::Scene& scene) const {
       const double last_m = known.seen_W ? (object.centroid_W - *known.seen_W).norm() : settled_m;
       const double distance_m = std::min(settled_m, last_m);
       const bool near = distance_m <= config_.looks.place_m;
-      const bool alike = LooksAlike(object, known.object, config_.looks);
+      msg::SceneObject latest = known.object;
+      latest.probabilities = tracks_[ours].latest;
+      const bool alike = LooksAlike(object, known.object, config_.looks) ||
+                         LooksAlike(object, latest, config_.looks);
       const bool same_id = tracks_[ours].id == object.id;
       if (same_id ? near || alike : near && alike)
         pairs.push_back({same_id, distance_m, theirs, ours});
@@ -96,6 +110,7 @@ bool SceneFollower::Settle(size_t i, const msg::SceneObject* seen, Utime now) {
   if (seen != nullptr) {
     known.seen_W = seen->centroid_W;
     track.id = seen->id;
+    track.latest = seen->probabilities;
     changed = std::exchange(known.object.id, seen->id) != seen->id;
   }
   const bool as_believed = known.gone

@@ -43,6 +43,10 @@ class SceneFollower {
   Utime seen() const { return seen_; }
   const std::string& source() const { return source_; }
   int64_t seq() const { return seq_; }
+  /// Of its frame.
+  Utime utime() const { return utime_; }
+  /// The id of an object in the newest scene; 0 where it is not in it.
+  int IdNow(int object) const;
   /// The camera in the newest scene.
   const Pose& X_WC() const { return X_WC_; }
 
@@ -54,7 +58,9 @@ class SceneFollower {
     std::optional<Eigen::Vector3d> at_W;  // nothing: not seen
   };
   struct Track {
-    int id = 0;  // in the present run of perception; 0: not known
+    int id = 0;                                    // in the present run of perception; 0: not known
+    std::vector<msg::CategoryProbability> latest;  // perception's opinion, which what the user says
+                                                   // changes
     Change change;
   };
   struct Newcomer {
@@ -78,6 +84,7 @@ class SceneFollower {
   Utime seen_ = 0;
   std::string source_;
   int64_t seq_ = 0;
+  Utime utime_ = 0;
   Pose X_WC_ = Pose::Identity();
 };
 
