@@ -175,7 +175,11 @@ Model MakeTin(Random& random) {
     radius = Mm(random, 34, 52);
     height = radius * random.Uniform(2.2, 3.6);
   }
-  const bool lidded = rectangular || kind >= 0.45;
+  const bool flat = !rectangular && kind >= 0.45 && kind < 0.78;
+  // Fish and meat are sealed, biscuits and polish have a lid.
+  const bool lidded = rectangular ? random.Chance(0.8)
+                      : flat      ? random.Chance(radius > 70 * kMm ? 0.95 : 0.5)
+                                  : kind >= 0.45;
   const bool emptied = random.Chance(lidded ? 0.08 : 0.15);
   const uint32_t print = model.AddMaterial(
       PackagingTexture(random, PackagingColour(random), 6283 * radius, 1000 * height), 0.5f,

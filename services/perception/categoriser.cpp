@@ -6,17 +6,22 @@
 #include "services/base/utime.h"
 #include "services/perception/categoriser_confidence.h"
 #include "services/perception/cue_interface.h"
+#include "services/perception/cue_shape_measures.h"
 #include "services/perception/model_file.h"
 
 namespace beckon::perception {
 namespace {
 
+/// Says so where the object spans too much; a few stray points do not count.
 std::string TooLarge(const CueView& view) {
-  const Eigen::Vector3f extent =
-      view.points_T.rowwise().maxCoeff() - view.points_T.rowwise().minCoeff();
-  if (!(extent.maxCoeff() > Categoriser::kMaxExtent_m)) return {};
-  return "expected an object of at most 1 m, found one that spans " +
-         std::to_string(extent.maxCoeff()) + " m";
+  float extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::VectorXf along = view.points_T.row(axis);
+    const std::vector<float> values(along.data(), along.data() + along.size());
+    extent = std::max(extent, Quantile(values, 0.98F) - Quantile(values, 0.02F));
+  }
+  if (!(extent > Categoriser::kMaxExtent_m)) return {};
+  return "expected an object of at most 1 m, found one that spans " + std::to_string(extent) + " m";
 }
 
 }  // namespace
