@@ -1,10 +1,13 @@
 // beckon-capture: publishes images of a camera, a file or the embedded scene; renders the latter
 // offline.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "services/base/app.h"
 #include "services/base/bus.h"
+#include "services/base/progress.h"
 #include "services/base/run_loop.h"
 #include "services/capture/description_json.h"
 #include "services/capture/frame_set_writer.h"
@@ -23,6 +26,14 @@ Status WriteTruth(const capture::Options& options) {
   const auto description = DescribeInput(options);
   if (!description) return description.error();
   return WriteText(options.truth, ToJson(*description));
+}
+
+Status RenderObjects(const capture::Options& options) {
+  Progress progress(isatty(STDERR_FILENO) != 0, {});
+  return WriteObjectSet(
+      options.out,
+      {options.seed, options.per_category, options.views, options.sensor == "any", options.meshes},
+      [&](size_t done, size_t all) { progress.Tell("rendering objects", done, all); });
 }
 
 Status Serve(const capture::Options& options, const AppOptions& app_options) {
@@ -54,9 +65,7 @@ int main(int argc, char** argv) {
     if (auto status = Check(app, options); !status) return status;
     if (app_options.check_config) return {};
     if (options.render) return WriteFrameSet(options.out, options.seed, options.frames);
-    if (options.render_objects)
-      return WriteObjectSet(options.out, {options.seed, options.per_category, options.views,
-                                          options.sensor == "any", options.meshes});
+    if (options.render_objects) return RenderObjects(options);
     if (!options.truth.empty()) return WriteTruth(options);
     return Serve(options, app_options);
   });

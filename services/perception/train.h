@@ -30,11 +30,12 @@ struct TrainConfig {
   double gamma_scale = 1;   // their gamma times the median squared distance
   double decider_cost = 2;  // of the second stage
   double decider_gamma_scale = 0.5;
-  double unknown_prior = 1;  // Model::unknown_prior
-  int threads = 1;           // nothing depends on it but the time
+  double unknown_prior = 0.2;  // Model::unknown_prior: a training set holds more strange things
+                               // than a table does
+  int threads = 1;  // nothing depends on it but the time
   double caution =
       1;  // factor on the fitted temperature; above 1: less sure than held-out views say
-  double target_accuracy = 0.98;  // of what is answered without asking; decides the threshold
+  double target_accuracy = 0.96;  // of what is answered without asking; decides the threshold
 };
 
 /// What cross-validation said of one view.

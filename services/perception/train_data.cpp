@@ -159,8 +159,13 @@ Result<std::vector<ViewRecord>> ListViews(const std::string& folder) {
     for (Row& row : *rows) manifest[Text(row, "file")] = std::move(row);
   }
   std::vector<ViewRecord> views;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+  // A category's folder may be a link to where it is kept; how deep is bounded, so links may go
+  // round.
+  constexpr auto kLinks = fs::directory_options::follow_directory_symlink;
+  constexpr int kDeepest = 3;
+  for (fs::recursive_directory_iterator it(folder, kLinks, error), end; !error && it != end;
        it.increment(error)) {
+    if (it.depth() >= kDeepest) it.disable_recursion_pending();
     if (!it->is_regular_file() || it->path().extension() != ".pcd") continue;
     const fs::path relative = it->path().lexically_relative(folder);
     if (std::distance(relative.begin(), relative.end()) < 2) continue;

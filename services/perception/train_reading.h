@@ -10,7 +10,7 @@
 
 #include "services/perception/train_data.h"
 #include "services/perception/train_parallel.h"
-#include "services/perception/train_progress.h"
+#include "services/base/progress.h"
 
 namespace beckon::perception {
 

@@ -4,7 +4,7 @@
 
 #include "services/perception/model_file.h"
 #include "services/perception/train_figures.h"
-#include "services/perception/train_progress.h"
+#include "services/base/progress.h"
 #include "tests/perception/categoriser_folder.h"
 
 namespace beckon::perception {

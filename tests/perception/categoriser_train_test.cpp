@@ -201,6 +201,19 @@ TEST_F(TrainFolder, NamesInstancesByManifestFolderOrFileName) {
   EXPECT_FALSE((*views)[0].up_C);
 }
 
+TEST_F(TrainFolder, FollowsLinksToCategoriesAndEndsWhereTheyGoRound) {
+  Write("kept/elsewhere/a_0.pcd", "Box", 1);
+  Write("lab/Can/c_0.pcd", "Can", 1);
+  fs::create_directory_symlink(folder_ / "kept/elsewhere", folder_ / "lab/Box");
+  fs::create_directory_symlink(folder_ / "lab/Can", folder_ / "lab/Can/round");
+  const auto views = ListViews((folder_ / "lab").string());
+  ASSERT_TRUE(views) << views.error().message;
+  ASSERT_GE(views->size(), 2U);
+  EXPECT_EQ(views->front().category, "Box");
+  EXPECT_EQ(views->front().instance, "a");
+  for (size_t i = 1; i < views->size(); ++i) EXPECT_EQ((*views)[i].category, "Can");
+}
+
 TEST_F(TrainFolder, TrainsSkipsTheUnreadableAndTests) {
   for (uint32_t i = 0; i < 4; ++i) {
     for (const std::string category : {"Bowl", "Box", "Can"}) {

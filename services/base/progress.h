@@ -1,17 +1,18 @@
-// How far training is, for the person who waits for it.
+// How far long work is, for the person who waits for it.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <string>
 
-namespace beckon::perception {
+namespace beckon {
 
 /// One line a step where the output is no terminal; on a terminal a line that is redrawn, with
 /// percentage and time left. Ends what it watches when `stopped` (may be empty) says so.
 class Progress {
  public:
   Progress(bool terminal, std::function<bool()> stopped);
+  ~Progress() { EndLine(); }
   /// A step's state; its first mention begins it. False: stop.
   bool Tell(const std::string& step, size_t done, size_t total);
   /// A line by itself.
@@ -33,4 +34,4 @@ class Progress {
 /// "training 45 %, 0:32 left"; without the time where nothing is known yet.
 std::string ProgressText(const std::string& step, size_t done, size_t total, double seconds);
 
-}  // namespace beckon::perception
+}  // namespace beckon

@@ -1,10 +1,10 @@
 // Lines on standard error.
-#include "services/perception/train_progress.h"
+#include "services/base/progress.h"
 
 #include <cstdio>
 #include <utility>
 
-namespace beckon::perception {
+namespace beckon {
 
 Progress::Progress(bool terminal, std::function<bool()> stopped)
     : terminal_(terminal), stopped_(std::move(stopped)) {}
@@ -55,4 +55,4 @@ std::string ProgressText(const std::string& step, size_t done, size_t total, dou
   return step + text;
 }
 
-}  // namespace beckon::perception
+}  // namespace beckon
