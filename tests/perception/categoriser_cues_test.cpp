@@ -109,12 +109,16 @@ TEST(CueSets, AModelOfSomeCuesHoldsNoOthers) {
 
 TEST(MissingCue, IsReplacedByTheOthersMean) {
   std::vector<std::vector<float>> by_cue = {{0.5F, 0.5F}, {}, {0.9F, 0.1F}};
-  ASSERT_TRUE(FillMissing(by_cue));
+  ASSERT_TRUE(FillMissing({}, by_cue));
   // sqrt(.51 .91) : sqrt(.51 .11), with a doubt of .01 each
   EXPECT_NEAR(by_cue[1][0] / by_cue[1][1], std::sqrt(0.91 / 0.11), 1e-3);
   EXPECT_NEAR(by_cue[1][0] + by_cue[1][1], 1, 1e-5);
+  // Cues that count for nothing add nothing to what is filled in.
+  by_cue = {{0.5F, 0.5F}, {}, {0.9F, 0.1F}};
+  ASSERT_TRUE(FillMissing({0, 1, 2}, by_cue));
+  EXPECT_NEAR(by_cue[1][0] / by_cue[1][1], 0.91 / 0.11, 1e-2);
   std::vector<std::vector<float>> none = {{}, {}};
-  EXPECT_FALSE(FillMissing(none));
+  EXPECT_FALSE(FillMissing({}, none));
 }
 
 TEST(MissingCue, AViewWithoutColourIsStillRecognised) {

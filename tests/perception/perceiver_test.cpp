@@ -117,7 +117,9 @@ TEST(Perceiver, KnowsANamedObjectUnderANewIdByItsLook) {
   for (int frame = 0; frame < 30; ++frame) back = perceiver.Perceive(world.Render());
   ASSERT_EQ(back.objects.size(), 3u);
   for (const PerceivedObject& object : back.objects) {
-    if (is_red(object)) EXPECT_GT(object.id, 3) << "a new id";
+    if (is_red(object)) {
+      EXPECT_GT(object.id, 3) << "a new id";
+    }
     EXPECT_FALSE(object.told) << "recognised, not told";
     EXPECT_EQ(object.category.probabilities.front().first, is_red(object) ? "Tin" : "Box");
     EXPECT_EQ(object.category.ask_user, !is_red(object));

@@ -36,7 +36,9 @@ Seen See(const capture::ObjectView& rendered, const Categoriser& categoriser) {
   }
   seen.at.n_points = pixels.size();
   seen.at.centroid_C /= static_cast<double>(std::max<size_t>(1, pixels.size()));
-  const ObjectView view{image, pixels, Plane{rendered.up_C, 0}};
+  std::optional<Plane> table_C;
+  if (rendered.up_C) table_C = Plane{*rendered.up_C, 0};
+  const ObjectView view{image, pixels, table_C};
   seen.look = LookAtInstance(view);
   seen.said = categoriser.Categorise(view);
   return seen;
@@ -67,7 +69,8 @@ TEST(Evidence, OfTwoViewsIsRightMoreOftenThanOfOne) {
       const capture::Model model = capture::MakeModel(c, random);
       CategoryEvidence evidence;
       for (int view = 0; view < 2; ++view) {
-        const Seen seen = See(capture::RenderObjectView(model, random), *categoriser);
+        const Seen seen =
+            See(capture::RenderObjectView(model, /*any_camera=*/true, random), *categoriser);
         if (seen.said.probabilities.empty()) continue;
         one.Add(seen.said, capture::kCategories[c]);
         evidence.Add(seen.at, seen.look, seen.said, examples, config);
