@@ -85,9 +85,10 @@ def equal_neighbours(scene, axis):
 class Outline:
     """One side of an object."""
 
-    edges: numpy.ndarray  # a row each: the last column of the object
-    gaps: numpy.ndarray  # pixels without depth between it and what is behind
     rows: numpy.ndarray
+    edges: numpy.ndarray  # the last column of the object
+    gaps: numpy.ndarray  # pixels without depth between it and what is behind
+    steps: numpy.ndarray  # disparity between both, px: as wide is the projector's shadow
 
 
 def outlines(scene, side):
@@ -98,14 +99,13 @@ def outlines(scene, side):
         found = [(row, *edge) for row, edge in ((row, edge_of(depth[row], objects[row] == number))
                                                 for row in numpy.flatnonzero((objects == number).sum(1) >= 20)) if edge]
         if found:
-            rows, edges, gaps = numpy.array(found).T
-            yield Outline(edges, gaps, rows)
+            yield Outline(*numpy.array(found, float).T)
 
 
 def edge_of(depth, inside):
-    """The last column of the object in a row and the number of pixels without depth that follow; None: it does not end
-    before something that is behind it."""
-    last = int(numpy.flatnonzero(inside)[-1])
+    """Of a row: the last column of the object, the number of pixels without depth that follow, and the step in disparity;
+    None: the object does not end before something that is behind it."""
+    last = numpy.flatnonzero(inside)[-1]
     near = depth[max(last - 10, 0):last - 3]
     if not numpy.isfinite(near).any():
         return None
@@ -115,7 +115,10 @@ def edge_of(depth, inside):
     if not len(other) or beyond[other[0]] < 0:
         return None
     own = numpy.flatnonzero(numpy.isfinite(beyond[:other[0]]))
-    return (start + int(own[-1]), int(other[0] - own[-1] - 1)) if len(own) else None
+    if not len(own):
+        return None
+    step_px = KINECT_M_PX / depth[start + own[-1]] - KINECT_M_PX / depth[start + other[0]]
+    return start + own[-1], other[0] - own[-1] - 1, step_px
 
 
 def raggedness(outline):

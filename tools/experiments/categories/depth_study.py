@@ -16,8 +16,8 @@ TEXT = """\
 creases the real views of boxes (`data/objects`) beside {boxes} rendered by a Kinect. Disparity is {constant} m px over
 the depth. *Residual*: of a plane within windows on the table, median of windows. *Outline strays*: rms of the last
 column of an object against its smoothed self (15 rows, quadratic), where what is behind is farther by 3 cm; a sharp
-outline in whole pixels has .29. *No depth beside outline*: rows whose outline is followed by pixels without depth, and how
-many; to the projector's far side that is its shadow, which depends on how far behind the next surface is. *Crease*:
+outline in whole pixels has .29. *No depth beside outline*: share of rows whose outline is followed by pixels without depth,
+and the number of those over the step in disparity: where the projector's shadow falls that is about 1. *Crease*:
 second difference of disparity at 3 (6) px over that at 12 px, across the top front edge of boxes; a sharp edge has
 .25 (.5), less is rounder. *No depth inside*: share of objects' pixels away from outlines, by their brightness; metal
 is told by tins, of whatever they are made. In brackets 95 % by bootstrap over scenes (views, for creases)."""
@@ -69,7 +69,7 @@ def measure(scene):
         gaps = numpy.concatenate([one.gaps for one in found] or [numpy.empty(0)])
         told[f"outline strays, {name}, px"] = (squares.sum(), len(squares))
         told[f"no depth beside outline, {name}: rows"] = ((gaps > 0).sum(), len(gaps))
-        told[f"no depth beside outline, {name}: mean px"] = (gaps.sum(), len(gaps))
+        told[f"no depth beside outline, {name}: px over step"] = (gaps.sum(), sum(one.steps.sum() for one in found))
     told.update(inside(scene))
     return told
 
@@ -122,7 +122,8 @@ def rows(real, rendered):
         for told in (real, rendered):
             scenes = told.get(name)
             sides.append((value(name, scenes), *interval(name, scenes)) if scenes else None)
-        cells = [f"{one[0]:.3f} ({one[1]:.3f}-{one[2]:.3f})" if one and numpy.isfinite(one[0]) else "-" for one in sides]
+        form = "{:.2%} ({:.2%}-{:.2%})" if name.startswith("no depth inside") else "{:.3f} ({:.3f}-{:.3f})"
+        cells = [form.format(*one) if one and numpy.isfinite(one[0]) else "-" for one in sides]
         ratio = sides[1][0] / sides[0][0] if "-" not in cells and sides[0][0] else numpy.nan
         yield [name, *cells, f"{ratio:.2f}" if numpy.isfinite(ratio) else "-"]
 

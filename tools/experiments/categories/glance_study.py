@@ -5,30 +5,30 @@ import numpy
 import plots
 from categories.figures import FIGURES, UNKNOWN, figures, gain, intervals, together
 from categories.published import BEST_KNOWN, JUDGED, LEVELS
-from categories.sets import SENSORS, TITLES, WAYS, pooled
+from categories.sets import WAYS, pooled
 from report import table
 
 TEXT = """\
 *Macro recall*: mean over categories. *Surest 70 %*: accuracy of the views with the highest confidence. *Asks about*: share
 at or below T, where the user is asked. *Calibration error*: mean difference of claim and truth in 10 bins of equal count by
 probability of what is said; of few views even a perfect model shows some. Known categories only; what has no answer, or is
-called Unknown, is wrong. In brackets: 95 % by bootstrap over products, not views ({resamples} resamples)."""
+called Unknown, is wrong. In brackets: 95 % by bootstrap over products, not views ({resamples} resamples; calibration errors,
+which resampling makes larger, moved by their mean excess)."""
 CONFUSIONS_TEXT = """\
 Rows: what it is; columns: what it is taken for; shares of the row in colour, views in numbers. Real views and rendered
 meshes together."""
 
 
 def glance(report, sets, judged, resamples):
-    shown = dict(sets.by_name)
     rows = []
-    for name, views in shown.items():
+    for name, views in sets.by_name.items():
         for way, cues in WAYS.items():
             one = judged[name, cues]
             rows.append([views.title if way == "dissertation" else "", len(one.known()), way,
                          *with_intervals(figures(one), intervals(one, resamples))])
     rows += [[which, 166, "", *told, "", ""] for which, told in BEST_KNOWN.items()]
     gains = []
-    for name, views in shown.items():
+    for name, views in sets.by_name.items():
         more = gain(judged[name, "all"], judged[name, "dissertation"], resamples)
         gains.append("{}: {:+.3f} ({:+.3f} .. {:+.3f})".format(views.title, *more))
     report.section("At a glance", TEXT.format(resamples=resamples), sets.words(),

@@ -12,14 +12,14 @@ from report import table
 SEED, SPLITS = 9201, {"objects": 8, "meshes any": 4}
 TITLES = {"objects": "real views", "meshes any": "rendered meshes, any depth camera"}
 TEXT = """\
-In each of {splits} random splits half of the products of each category are one's own, and half of their views are learnt
-from (`beckon-train --data DIR --base MODEL`; {learnt}); judged are the other views of these products, and all views of
+In each random split half of the products of each category are one's own, and half of their views are learnt
+from (`beckon-train --data DIR --base MODEL`); judged are the other views of these products, and all views of
 the products that are not one's own. Known categories; figures over the views of all splits together, the standard deviation
-of the accuracy between splits behind it. *Views turned right*, *wrong*: by the own views, of all judged."""
+of the accuracy between splits behind it. *Turned right*, *wrong*: by the own views, of all judged."""
 
 
 def own_views(lab, report, sets, judged):
-    parts = []
+    parts = [TEXT]
     for name, count in SPLITS.items():
         if name not in sets.by_name:
             continue
@@ -27,9 +27,9 @@ def own_views(lab, report, sets, judged):
         splits = [split(before, numpy.random.default_rng([SEED, i])) for i in range(1 if lab.quick else count)]
         after = improved(lab, name, views, before, splits)
         learnt = sorted(len(own) for own, _, _ in splits)
-        parts += [f"**{TITLES[name].capitalize()}.** " + TEXT.format(splits=len(splits), learnt=words(learnt)),
+        parts += [f"**{TITLES[name].capitalize()}**, {len(splits)} splits, {words(learnt)} learnt:",
                   table(["", "views judged", *FIGURES, "turned right", "wrong"], rows(before, after, splits))]
-    if parts:
+    if len(parts) > 1:
         report.section("Learning from a lab's own views", *parts)
 
 

@@ -7,6 +7,7 @@ from categories.depth_study import depth_noise
 from categories.figures import RESAMPLES
 from categories.glance_study import confusions, glance, goals
 from categories.own_views_study import own_views
+from categories.pictures import surest_errors
 from categories.sets import WAYS, Sets
 
 
@@ -20,6 +21,7 @@ def run_all(lab, capture, report, data):
     goals(report, judged, resamples, cue_against_cue(lab, report, sets))
     certainty(report, judged)
     strange_things(report, judged)
+    surest_errors(report, sets, judged)
     conditions(report, sets, judged)
     own_views(lab, report, sets, judged)
     return depth_noise(lab, capture, report, sets, data) and sets.are_whole
