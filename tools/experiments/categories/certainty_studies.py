@@ -10,14 +10,15 @@ from report import table
 STYLES = {"dissertation": plots.STYLES["oain"], "default": plots.STYLES["adaptive"]}
 COVERAGES = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 CERTAINTY_TEXT = """\
-Above: the share of wrong names among the surest views, against how many those are; the mark is T: right of it the user is
-asked. Below: ten bins of equal count by the probability of what is said, and how often that came true; on the
+Above: the share of wrong names among the surest views, against how many those are; the mark is T: right of it the
+user is asked. Below: ten bins of equal count by the probability of what is said, and how often that came true; on the
 diagonal claims are worth what they say, below it they are too bold."""
-COVERAGE_TEXT = "Accuracy of the surest views, dissertation → **default**; and of those that are not asked about at T."
+COVERAGE_TEXT = "Accuracy of the surest views, dissertation → **default**; and of those not asked about at T."
 STRANGE_TEXT = """\
-Rendered strange things (books, tools, hands, crockery without a category, fruit, gadgets, toys, cloth; the generator's own,
-but of seeds that are not trained on) and views of known categories. *Named*: as one of the categories, unasked; of strange
-things that is the harm. *Called Unknown*: rightly or wrongly, unasked or not. Brackets: 95 % over things."""
+Rendered strange things (books, tools, hands, crockery without a category, fruit, gadgets, toys, cloth; the
+generator's own, but of seeds that are not trained on) and views of known categories. *Named*: as one of the
+categories, unasked; of strange things that is the harm. *Called Unknown*: rightly or wrongly, unasked or not.
+Brackets: 95 % over things."""
 
 
 def certainty(report, judged):
@@ -54,7 +55,8 @@ def plot_certainty(report, by_way, names):
             above.plot(share, risk, color=colour, label=way)
             at = int((~one.asked).sum())
             if at:
-                above.plot(share[at - 1], risk[at - 1], color=colour, marker=marker, markersize=8)
+                above.plot(share[at - 1], risk[at - 1], color=colour, marker=marker, markersize=8, clip_on=False,
+                           zorder=4)
             _, claim, truth = reliability(one).T
             below.plot(claim, truth, color=colour, marker=marker, label=f"{way}: {calibration_error(one):.3f}")
         above.set(title=TITLES[name], xlabel="share of views told", ylabel="wrong of those" if not column else "",
@@ -62,7 +64,7 @@ def plot_certainty(report, by_way, names):
         below.set(xlabel="probability claimed", ylabel="came true" if not column else "", xlim=(0, 1), ylim=(0, 1.02))
         below.legend(fontsize=8, title="calibration error", title_fontsize=8)
     plots.legend_below(figure, axes[0], len(by_way))
-    return plots.save(figure, report, "certainty", "Risk over coverage and reliability of the dissertation's cues and all")
+    return plots.save(figure, report, "certainty", "Risk over coverage, and reliability, of both")
 
 
 def strange_things(report, judged):

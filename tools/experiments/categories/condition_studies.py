@@ -10,11 +10,11 @@ from categories.sets import SENSORS, WAYS
 from report import table
 
 TEXT = """\
-Accuracy, dissertation → **default**, of known categories. *Distance*: median depth of the object's pixels. *Seen*: share of
-its pixels that no neighbour hides. *Noise*: median over the object of the residual of curved patches (7x7 px) in
-disparity, as a Kinect's pixels; views that have no such patch are too small for it. Distance, size in the image and
-noise go together: these are not causes apart. Means are shown where there are at least {fewest} views; the plots' bars are
-95 % over things."""
+Accuracy, dissertation → **default**, of known categories. *Distance*: median depth of the object's pixels. *Seen*:
+share of its pixels that no neighbour hides. *Noise*: median over the object of the residual of curved patches (7x7
+px) in disparity, as a Kinect's pixels; views that have no such patch are too small for it. Distance, size in the
+image and noise go together: these are not causes apart. Means are shown where there are at least {fewest} views; the
+plots' bars are 95 % over things."""
 WHAT = {  # name: (axis, edges of bins)
     "distance": ("m", (0, 0.6, 0.8, 1.0, 1.2, 9)),
     "seen": ("share", (0, 0.6, 0.75, 0.9, 0.999, 2)),

@@ -9,9 +9,9 @@ from categories.sets import TITLES, pooled
 from report import table
 
 TEXT = """\
-Accuracy / macro recall. A cue by itself and the dissertation's three have machines of their own; all but one is the decider
-of all, told that the cue saw nothing, not one that was trained without it. *ms*: median time of an object ({timed}),
-reading its file not counted, one process at a time; finding the object's points and frame is part of each."""
+Accuracy / macro recall. A cue by itself and the dissertation's three have machines of their own; all but one is the
+decider of all, told that the cue saw nothing, not one that was trained without it. *ms*: median time of an object
+({timed}), reading its file not counted, one process at a time; finding the object's points and frame is part of each."""
 
 
 def cue_sets(names):

@@ -1,5 +1,5 @@
-"""What a depth camera does to depth, measured by the same code in real and in rendered scenes: noise and steps on tables,
-outlines, creases, and where there is no depth at all. In disparity, where a structured-light camera errs."""
+"""What a depth camera does to depth, measured by the same code in real and in rendered scenes: noise and steps on
+tables, outlines, creases, and where there is no depth at all. In disparity, where a structured-light camera errs."""
 
 import json
 from dataclasses import dataclass
@@ -103,8 +103,8 @@ def outlines(scene, side):
 
 
 def edge_of(depth, inside):
-    """Of a row: the last column of the object, the number of pixels without depth that follow, and the step in disparity;
-    None: the object does not end before something that is behind it."""
+    """Of a row: the last column of the object, the number of pixels without depth that follow, and the step in
+    disparity; None: the object does not end before something that is behind it."""
     last = numpy.flatnonzero(inside)[-1]
     near = depth[max(last - 10, 0):last - 3]
     if not numpy.isfinite(near).any():
@@ -137,8 +137,8 @@ def no_depth(scene, number):
 
 
 def crease(disparity):
-    """Mean second differences at steps of 3 and 6 px over those at 12, across the top front edge of a box whose pixels have
-    a disparity; None: there is no such edge. A sharp edge has .25 and .5."""
+    """Mean second differences at steps of 3 and 6 px over those at 12, across the top front edge of a box whose pixels
+    have a disparity; None: there is no such edge. A sharp edge has .25 and .5."""
     bend = numpy.full(disparity.shape, numpy.nan)
     bend[12:-12] = disparity[:-24] - 2 * disparity[12:-12] + disparity[24:]
     columns = numpy.flatnonzero(numpy.isfinite(bend).any(0))

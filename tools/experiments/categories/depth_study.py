@@ -12,15 +12,16 @@ from report import table
 
 SEED, FRAMES, RESAMPLES = 9301, 45, 1000
 TEXT = """\
-{real} real scenes (`data/osd`, Kinect) beside {rendered} rendered frames (`beckon-capture --render --seed {seed}`), and for
-creases the real views of boxes (`data/objects`) beside {boxes} rendered by a Kinect. Disparity is {constant} m px over
-the depth. *Residual*: of a plane within windows on the table, median of windows. *Outline strays*: rms of the last
-column of an object against its smoothed self (15 rows, quadratic), where what is behind is farther by 3 cm; a sharp
-outline in whole pixels has .29. *No depth beside outline*: share of rows whose outline is followed by pixels without depth,
-and the number of those over the step in disparity: where the projector's shadow falls that is about 1. *Crease*:
-second difference of disparity at 3 (6) px over that at 12 px, across the top front edge of boxes; a sharp edge has
-.25 (.5), less is rounder. *No depth inside*: share of objects' pixels away from outlines, by their brightness; metal
-is told by tins, of whatever they are made. In brackets 95 % by bootstrap over scenes (views, for creases)."""
+{real} real scenes (`data/osd`, Kinect) beside {rendered} rendered frames (`beckon-capture --render --seed {seed}`),
+and for creases the real views of boxes (`data/objects`) beside {boxes} rendered by a Kinect. Disparity is {constant}
+m px over the depth. *Residual*: of a plane within windows on the table, median of windows. *Outline strays*: rms of
+the last column of an object against its smoothed self (15 rows, quadratic), where what is behind is farther by 3 cm;
+a sharp outline in whole pixels has .29. *No depth beside outline*: share of rows whose outline is followed by pixels
+without depth, and the number of those over the step in disparity: where the projector's shadow falls that is about 1.
+*Crease*: second difference of disparity at 3 (6) px over that at 12 px, across the top front edge of boxes; a sharp
+edge has .25 (.5), less is rounder. *No depth inside*: share of objects' pixels away from outlines, by their
+brightness; metal is told by tins, of whatever they are made. In brackets 95 % by bootstrap over scenes (views, for
+creases)."""
 
 
 def depth_noise(lab, capture, report, sets, data):

@@ -97,8 +97,8 @@ def resamples(judged, count=RESAMPLES):
 
 
 def intervals(judged, count=RESAMPLES):
-    """95 % of each of FIGURES, low and high, by bootstrap over products. Calibration errors of resamples are larger than
-    the views' own, as repeated views err together: they are moved by their mean excess."""
+    """95 % of each of FIGURES, low and high, by bootstrap over products. Calibration errors of resamples are larger
+    than the views' own, as repeated views err together: they are moved by their mean excess."""
     known = judged.known()
     drawn = numpy.array([figures(known.only(which)) for which in resamples(known, count)])
     limits = numpy.percentile(drawn, (2.5, 97.5), axis=0)

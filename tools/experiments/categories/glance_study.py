@@ -9,14 +9,14 @@ from categories.sets import WAYS, pooled
 from report import table
 
 TEXT = """\
-*Macro recall*: mean over categories. *Surest 70 %*: accuracy of the views with the highest confidence. *Asks about*: share
-at or below T, where the user is asked. *Calibration error*: mean difference of claim and truth in 10 bins of equal count by
-probability of what is said; of few views even a perfect model shows some. Known categories only; what has no answer, or is
-called Unknown, is wrong. In brackets: 95 % by bootstrap over products, not views ({resamples} resamples; calibration errors,
-which resampling makes larger, moved by their mean excess)."""
+*Macro recall*: mean over categories. *Surest 70 %*: accuracy of the views with the highest confidence. *Asks about*:
+share at or below T, where the user is asked. *Calibration error*: mean difference of claim and truth in 10 bins of
+equal count by probability of what is said; of few views even a perfect model shows some. Known categories only; what
+has no answer, or is called Unknown, is wrong. In brackets: 95 % by bootstrap over products, not views ({resamples}
+resamples; calibration errors, which resampling makes larger, moved by their mean excess)."""
 CONFUSIONS_TEXT = """\
-Rows: what it is; columns: what it is taken for; shares of the row in colour, views in numbers. Real views and rendered
-meshes together."""
+Rows: what it is; columns: what it is taken for; shares of the row in colour, views in numbers. Real views and
+rendered meshes together."""
 
 
 def glance(report, sets, judged, resamples):

@@ -1,4 +1,4 @@
-"""Runs `beckon-capture` and `beckon-train` for the experiments: renders sets of views, judges them, learns from them."""
+"""Runs `beckon-capture` and `beckon-train` for the experiments: renders sets of views, judges them, learns."""
 
 import csv
 import json

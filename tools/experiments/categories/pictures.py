@@ -7,9 +7,9 @@ from segmentation.pictures import font
 
 TILE_PX, MARGIN, CAPTION_PX, COLUMNS, ROWS = 112, 6, 32, 8, 2
 TEXT = """\
-The surest wrong names of all cues, at most one a thing: what it is → what it was taken for, and the confidence; **(asked)**
-in the picture where the user would be asked all the same. Rendered meshes above, rendered strange things that are named
-as a category below."""
+The surest wrong names of all cues, at most one a thing: what it is → what it was taken for, and the confidence;
+**(asked)** in the picture where the user would be asked all the same. Rendered meshes above, rendered strange things
+that are named as a category below."""
 
 
 def surest_errors(report, sets, judged):

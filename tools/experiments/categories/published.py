@@ -21,13 +21,13 @@ TARGETS["time"] = ("57", 40, 20)
 FRAME = Frame(
     title="Experiments with the categories",
     head="""\
-What single objects are taken for: by all cues (*default*), and by the *dissertation's* three (SIFT and HOG bags of words,
-FPFH; its second machine). Made by `make experiments` (some minutes; `tools/experiments/run --only categories`). Nothing
-here is written by hand; the same sources and the same model make the same figures, but for times. The real views, the
-scenes and the meshes are not part of this repository (`--data`, `BECKON_DATA`).
+What single objects are taken for: by all cues (*default*), and by the *dissertation's* three (SIFT and HOG bags of
+words, FPFH; its second machine). Made by `make experiments` (some minutes; `tools/experiments/run --only
+categories`). Nothing here is written by hand; the same sources and the same model make the same figures, but for
+times. The real views, the scenes and the meshes are not part of this repository (`--data`, `BECKON_DATA`).
 
 Measured: {version}, by `{command}`.""",
-    goals="\"must\" and \"aim\" are the design's, of the shipped model on real views by other sensors of other products; "
+    goals="\"must\" and \"aim\" are the design's, of the shipped model on real views of other products by other sensors; "
           "those at hand are of few products by one sensor, and the meshes are real products whose views are rendered. "
           "Judged at the decimals shown; in brackets 95 % intervals over products.",
     reference="three cues",

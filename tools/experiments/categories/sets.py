@@ -4,17 +4,17 @@ from categories.figures import together
 from categories.lab import Test, read_views
 
 # No model is trained on these seeds: the shipped one's are in docs/model.md.
-RENDERED_SEED, RENDERED_OBJECTS = 9101, 40  # of each category, two views of each; the same objects by any sensor and Kinect
+RENDERED_SEED, RENDERED_OBJECTS = 9101, 40  # of each category, two views of each, by each kind of sensor
 MESH_SEED, MESH_VIEWS = 9102, 6  # by each kind of sensor
 SENSORS = {"any": "any depth camera", "kinect": "Kinect"}
 WAYS = {"dissertation": "dissertation", "default": "all"}  # name: --cues
 TITLES = {"rendered": "rendered objects", "objects": "real views", "meshes": "rendered meshes"}
 TEXT = """\
-- *Rendered objects*: seed {seed}, {objects} objects of each category and {strange} strange things, two views each, as any
-  of several depth cameras would see them (`--sensor any`), and the same objects anew by a Kinect (`--sensor kinect`).
-  The model was trained on other seeds of the same generator, so that this is its home ground.
+- *Rendered objects*: seed {seed}, {objects} objects of each category and {strange} strange things, two views each, as
+  any of several depth cameras would see them (`--sensor any`), and the same objects anew by a Kinect (`--sensor
+  kinect`). The model was trained on other seeds of the same generator, so that this is its home ground.
 - *Real views*: `data/objects`, {real}.
-- *Rendered meshes*: `data/meshes`, {meshes}: the shapes are real, pictures of them and the depth camera are not.
+- *Rendered meshes*: `data/meshes` (seed {mesh_seed}), {meshes}: the shapes are real, the depth camera is not.
 
 All real views are of one sensor and one table; a product that fails takes all its views with it."""
 
@@ -45,9 +45,11 @@ class Sets:
         return len(self.by_name) == 2 * len(SENSORS) + 1
 
     def words(self):
-        return TEXT.format(seed=RENDERED_SEED, objects=self.objects, strange=2 * self.objects,
-                           real=counted(self.by_name.get("objects")), meshes=counted(self.by_name.get("meshes any"))
-                           + " by any depth camera, as many by a Kinect" if "meshes any" in self.by_name else counted(None))
+        meshes = counted(self.by_name.get("meshes any"))
+        if "meshes any" in self.by_name:
+            meshes += " by any depth camera, as many by a Kinect"
+        return TEXT.format(seed=RENDERED_SEED, mesh_seed=MESH_SEED, objects=self.objects, strange=2 * self.objects,
+                           real=counted(self.by_name.get("objects")), meshes=meshes)
 
     def judge(self, lab, what, cues, model=None):
         """By name of the set and cues; `model`: another than the lab's."""
