@@ -61,7 +61,8 @@ def judged_from(lines, rows):
 def reliability(judged, bins=BINS):
     """Of bins of equal counts, the least probable first: views, mean claim, share that came true."""
     order = numpy.argsort(judged.top, kind="stable")
-    parts = [part for part in numpy.array_split(order, bins) if len(part)]
+    cuts = numpy.arange(1, bins) * len(order) // bins  # as beckon-train cuts them
+    parts = [part for part in numpy.split(order, cuts) if len(part)]
     return numpy.array([(len(part), judged.top[part].mean(), judged.right[part].mean()) for part in parts])
 
 

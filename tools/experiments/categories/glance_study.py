@@ -3,7 +3,7 @@
 import numpy
 
 import plots
-from categories.figures import FIGURES, UNKNOWN, figures, gain, intervals, together
+from categories.figures import FIGURES, SEED, UNKNOWN, figures, gain, intervals, together
 from categories.published import BEST_KNOWN, JUDGED, LEVELS
 from categories.sets import WAYS, pooled
 from report import table
@@ -13,7 +13,7 @@ TEXT = """\
 share at or below T, where the user is asked. *Calibration error*: mean difference of claim and truth in 10 bins of
 equal count by probability of what is said; of few views even a perfect model shows some. Known categories only; what
 has no answer, or is called Unknown, is wrong. In brackets: 95 % by bootstrap over products, not views ({resamples}
-resamples; calibration errors, which resampling makes larger, moved by their mean excess)."""
+resamples, seed {seed}; calibration errors, which resampling makes larger, moved by their mean excess)."""
 CONFUSIONS_TEXT = """\
 Rows: what it is; columns: what it is taken for; shares of the row in colour, views in numbers. Real views and
 rendered meshes together."""
@@ -31,7 +31,7 @@ def glance(report, sets, judged, resamples):
     for name, views in sets.by_name.items():
         more = gain(judged[name, "all"], judged[name, "dissertation"], resamples)
         gains.append("{}: {:+.3f} ({:+.3f} .. {:+.3f})".format(views.title, *more))
-    report.section("At a glance", TEXT.format(resamples=resamples), sets.words(),
+    report.section("At a glance", TEXT.format(resamples=resamples, seed=SEED), sets.words(),
                    table(["views", "number", "cues", *FIGURES], rows),
                    "Accuracy, default less dissertation, of the same views: " + "; ".join(gains) + ".")
 

@@ -12,14 +12,14 @@ from report import table
 SEED, SPLITS = 9201, {"objects": 8, "meshes any": 4}
 TITLES = {"objects": "real views", "meshes any": "rendered meshes, any depth camera"}
 TEXT = """\
-In each random split half of the products of each category are one's own, and half of their views are learnt from
+In each random split (seed {seed}) half of the products of each category are one's own, and half of their views are learnt from
 (`beckon-train --data DIR --base MODEL`); judged are the other views of these products, and all views of the products
 that are not one's own. Known categories; figures over the views of all splits together, the standard deviation of the
 accuracy between splits behind it. *Turned right*, *wrong*: by the own views, of all judged."""
 
 
 def own_views(lab, report, sets, judged):
-    parts = [TEXT]
+    parts = [TEXT.format(seed=SEED)]
     for name, count in SPLITS.items():
         if name not in sets.by_name:
             continue
