@@ -25,13 +25,17 @@ class Sets:
     def __init__(self, lab, capture, report, data):
         self.by_name = {}
         self.objects = 3 if lab.quick else RENDERED_OBJECTS
+        real = None
+        if (data / "objects/manifest.csv").is_file():
+            real = read_views("real views", data / "objects")
+            lab.cues(real)  # a model that is refused is so before everything is rendered
+        else:
+            report.skip("real views", f"they are not in {data}/objects; set BECKON_DATA")
         for sensor in SENSORS:
             self.by_name[f"rendered {sensor}"] = capture.objects(
                 f"rendered objects, {SENSORS[sensor]}", RENDERED_SEED, self.objects, 2, sensor)
-        if (data / "objects/manifest.csv").is_file():
-            self.by_name["objects"] = read_views("real views", data / "objects")
-        else:
-            report.skip("real views", f"they are not in {data}/objects; set BECKON_DATA")
+        if real:
+            self.by_name["objects"] = real
         if (data / "meshes/manifest.csv").is_file():
             for sensor in SENSORS:
                 self.by_name[f"meshes {sensor}"] = capture.objects(
