@@ -17,7 +17,7 @@ COVERAGE_TEXT = "Accuracy of the surest views, dissertation → **default**; and
 STRANGE_TEXT = """\
 Rendered strange things (books, tools, hands, crockery without a category, fruit, gadgets, toys, cloth; the
 generator's own, but of seeds that are not trained on) and views of known categories. *Named*: as one of the
-categories, unasked; of strange things that is the harm. *Called Unknown*: rightly or wrongly, unasked or not.
+categories, right or wrong, unasked; of strange things that is the harm. *Called Unknown*: rightly or wrongly, unasked or not.
 Brackets: 95 % over things."""
 
 

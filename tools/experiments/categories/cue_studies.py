@@ -5,7 +5,7 @@ import numpy
 import plots
 from categories.figures import figures, mean_interval
 from categories.lab import Test
-from categories.sets import TITLES, pooled
+from categories.sets import POOLED, TITLES, pooled
 from report import table
 
 TEXT = """\
@@ -26,7 +26,7 @@ def cue_against_cue(lab, report, sets):
     """The median milliseconds of all cues."""
     timed = next(name for name in ("objects", "meshes kinect", "rendered kinect") if name in sets.by_name)
     chosen = cue_sets(lab.cues(sets.by_name[timed]))
-    judged = sets.judge(lab, "cue against cue", list(chosen.values()))
+    judged = sets.judge(lab, "cue against cue", list(chosen.values()), sum(POOLED.values(), []))
     by_set = {called: pooled(judged, cues) for called, cues in chosen.items()}
     ms = {called: float(numpy.median(lab.milliseconds(Test(sets.by_name[timed], cues))))
           for called, cues in chosen.items()}

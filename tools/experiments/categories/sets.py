@@ -9,6 +9,7 @@ MESH_SEED, MESH_VIEWS = 9102, 6  # by each kind of sensor
 SENSORS = {"any": "any depth camera", "kinect": "Kinect"}
 WAYS = {"dissertation": "dissertation", "default": "all"}  # name: --cues
 TITLES = {"rendered": "rendered objects", "objects": "real views", "meshes": "rendered meshes"}
+POOLED = {"rendered": ["rendered any"], "objects": ["objects"], "meshes": ["meshes any", "meshes kinect"]}
 TEXT = """\
 - *Rendered objects*: seed {seed}, {objects} objects of each category and {strange} strange things, two views each, as
   any of several depth cameras would see them (`--sensor any`), and the same objects anew by a Kinect (`--sensor
@@ -55,17 +56,17 @@ class Sets:
         return TEXT.format(seed=RENDERED_SEED, mesh_seed=MESH_SEED, objects=self.objects, strange=2 * self.objects,
                            real=counted(self.by_name.get("objects")), meshes=meshes)
 
-    def judge(self, lab, what, cues, model=None):
-        """By name of the set and cues; `model`: another than the lab's."""
-        tests = {(name, one): Test(views, one, model) for name, views in self.by_name.items() for one in cues}
+    def judge(self, lab, what, cues, names=None):
+        """By name of the set and cues; `names`: not of all sets."""
+        tests = {(name, one): Test(views, one) for name, views in self.by_name.items() for one in cues
+                 if names is None or name in names}
         return dict(zip(tests, lab.judge(what, list(tests.values()))))
 
 
 def pooled(judged, cues):
     """The three sets that figures are told of: meshes by both kinds of sensor are one."""
     out = {}
-    for name, parts in (("rendered", ["rendered any"]), ("objects", ["objects"]),
-                        ("meshes", ["meshes any", "meshes kinect"])):
+    for name, parts in POOLED.items():
         there = [judged[part, cues] for part in parts if (part, cues) in judged]
         if there:
             out[name] = together(there)
