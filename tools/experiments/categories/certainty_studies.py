@@ -17,8 +17,8 @@ COVERAGE_TEXT = "Accuracy of the surest views, dissertation → **default**; and
 STRANGE_TEXT = """\
 Rendered strange things (books, tools, hands, crockery without a category, fruit, gadgets, toys, cloth; the
 generator's own, but of seeds that are not trained on) and views of known categories. *Named*: as one of the
-categories, right or wrong, unasked; of strange things that is the harm. *Called Unknown*: rightly or wrongly, unasked or not.
-Brackets: 95 % over things."""
+categories, right or wrong, unasked; of strange things that is the harm. *Called Unknown*: rightly or wrongly,
+*unasked* of those. Brackets: 95 % over things."""
 
 
 def certainty(report, judged):
