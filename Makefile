@@ -9,7 +9,7 @@ help:
 	@echo "make build   release binaries in $(build_dir)/bin"
 	@echo "make model   the shipped model of categories, from its seed (ten minutes)"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
-	@echo "make experiments  how good questions, fits and segments are, as docs/experiments (half an hour)"
+	@echo "make experiments  how good questions, fits, segments and categories are, as docs/experiments (half an hour)"
 	@echo "make format  clang-format on every source file"
 
 dependencies:
@@ -33,7 +33,7 @@ model: build
 bench: build
 	bench/run
 
-# EXPERIMENT_FLAGS="--quick": a small run; "--only pose": one of the three reports; see tools/experiments/run --help
+# EXPERIMENT_FLAGS="--quick": a small run; "--only pose": one of the four reports; see tools/experiments/run --help
 experiments: build
 	deploy/install-deps python3-matplotlib python3-numpy python3-opencv python3-pil python3-scipy
 	tools/experiments/run $(EXPERIMENT_FLAGS)
