@@ -139,10 +139,11 @@ std::vector<size_t> StrayedPixels(const Rendering& rendering, const KinectNoise&
 }
 
 /// Probability that a surface returns too little of the pattern.
-double SurfaceDropout(float incidence, float metal) {
+double SurfaceDropout(float incidence, float metal, float brightness) {
   const double grazing = std::clamp((0.22 - incidence) / 0.16, 0.0, 1.0);
   const double mirror = metal * (0.4 + 1.2 * std::abs(incidence - 0.5));
-  return std::max(grazing, std::min(0.9, mirror));
+  const double black = 0.12 * std::clamp((35.0 - brightness) / 35.0, 0.0, 1.0);
+  return std::max({grazing, black, std::min(0.9, mirror)});
 }
 
 }  // namespace
@@ -179,6 +180,8 @@ DepthCamera RandomDepthCamera(Random& random) {
   double focal_px = random.Uniform(515, 585);
   if (kind < 0.55) {
     camera.noise = RandomKinectNoise(random);
+    camera.noise.edge_dropout =
+        random.Uniform(0.02, 0.35);  // segmentation leaves some of it as well
   } else if (kind <
              0.78) {  // time of flight: no pattern, so no steps and no shadow, but mixed pixels
     KinectNoise& noise = camera.noise;
@@ -235,7 +238,8 @@ KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, 
       const size_t i = static_cast<size_t>(v) * w + u, s = source[i];
       if (smooth[i] <= 0) continue;
       if (rendering.unlit[s] && blotches[i] < shadow_limit) continue;
-      const double lost = SurfaceDropout(rendering.incidence[s], rendering.metal[s]);
+      const double lost =
+          SurfaceDropout(rendering.incidence[s], rendering.metal[s], rendering.colour[s].mean());
       if (lost > 0.02 && blotches[i] < Quantile(lost)) continue;
       const bool at_outline = AtOutline(disparity, w, h, u, v);
       if (blotches[i] < edge_limit && at_outline) continue;

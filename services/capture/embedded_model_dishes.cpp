@@ -186,7 +186,7 @@ Model MakeTin(Random& random) {
       0.005f);
   const Rgb metal_colour = random.Chance(0.5) ? Rgb{190, 190, 195} : PackagingColour(random);
   const uint32_t metal =
-      model.AddMaterial(PlainTexture(metal_colour), 0.7f, random.Chance(0.15) ? 0.3f : 0.01f);
+      model.AddMaterial(PlainTexture(metal_colour), 0.7f, random.Chance(0.05) ? 0.2f : 0.0f);
   const double bead = Mm(random, 1, 2.2);
   std::vector<OutlinePoint> outline = {
       {0, 2 * kMm, metal},       {radius - 2 * kMm, 2 * kMm, metal}, {radius - 2 * kMm, 0, metal},

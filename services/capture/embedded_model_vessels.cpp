@@ -12,8 +12,8 @@ double Mm(Random& random, double low, double high) { return random.Uniform(low, 
 
 /// Depth lost on bare metal: mostly little, now and then much.
 float ShinyShare(Random& random) {
-  return static_cast<float>(random.Chance(0.2) ? random.Uniform(0.1, 0.5)
-                                               : random.Uniform(0, 0.04));
+  return static_cast<float>(random.Chance(0.1) ? random.Uniform(0.1, 0.5)
+                                               : random.Uniform(0, 0.02));
 }
 
 Rgb MetalColour(Random& random) {

@@ -158,6 +158,19 @@ TEST(KinectDepthTest, SeesNothingWhereThePatternIsLost) {
   EXPECT_EQ(share(r), 1);
 }
 
+TEST(KinectDepthTest, LosesSomeOfWhatIsBlack) {
+  const auto lost = [](float brightness) {
+    Rendering r = Slanted();
+    r.colour.assign(r.window.Size(), Eigen::Vector3f::Constant(brightness));
+    Random random(8);
+    const auto depth = SimulateDepth(r, {}, random).depth_m;
+    return static_cast<double>(std::count(depth.begin(), depth.end(), 0.0f)) /
+           static_cast<double>(depth.size());
+  };
+  EXPECT_EQ(lost(100), 0);
+  EXPECT_NEAR(lost(10), 0.086, 0.03);
+}
+
 TEST(KinectDepthTest, LabelsGoWithTheDepthTheyWereTakenFrom) {
   Rendering r = Slanted();
   for (int v = 60; v < 180; ++v) {

@@ -2,9 +2,10 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "services/base/progress.h"
+#include "services/perception/cue_interface.h"
 #include "services/perception/model_file.h"
 #include "services/perception/train_figures.h"
-#include "services/base/progress.h"
 #include "tests/perception/categoriser_folder.h"
 
 namespace beckon::perception {
@@ -73,7 +74,7 @@ TEST_F(TrainFolder, TakesUncolouredViewsAndCategoriesOfWhichNoneIsReadable) {
   const auto model = ReadModelFile(Path("m.model"));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->categories, (std::vector<std::string>{"Bowl", "Box", "Can"}));
-  EXPECT_EQ(model->cues.size(), 5U);
+  EXPECT_EQ(model->cues.size(), MakeCues().size());
 }
 
 TEST_F(TrainFolder, TestsWithSomeOfTheCues) {
