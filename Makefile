@@ -7,7 +7,7 @@ help:
 	@echo "make demo    see it work: a table of objects, a short conversation, a task for the robot"
 	@echo "make test    build and run every test"
 	@echo "make build   release binaries in $(build_dir)/bin"
-	@echo "make model   the shipped model of categories, from its seed (ten minutes)"
+	@echo "make model   the shipped model of categories, from its seed (five minutes)"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
 	@echo "make experiments  how good questions, fits, segments and categories are, as docs/experiments (half an hour)"
 	@echo "make format  clang-format on every source file"
