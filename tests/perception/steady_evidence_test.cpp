@@ -10,7 +10,7 @@
 namespace beckon::perception {
 namespace {
 
-constexpr int kPerCategory = 8;
+constexpr int kPerCategory = 16;
 
 struct Seen {
   SeenAt at;
@@ -70,7 +70,7 @@ TEST(Evidence, OfTwoViewsIsRightMoreOftenThanOfOne) {
       CategoryEvidence evidence;
       for (int view = 0; view < 2; ++view) {
         const Seen seen =
-            See(capture::RenderObjectView(model, /*any_camera=*/true, random), *categoriser);
+            See(capture::RenderObjectView(model, /*any_camera=*/false, random), *categoriser);
         if (seen.said.probabilities.empty()) continue;
         one.Add(seen.said, capture::kCategories[c]);
         evidence.Add(seen.at, seen.look, seen.said, examples, config);
