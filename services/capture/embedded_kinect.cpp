@@ -116,7 +116,7 @@ float Quantile(double probability) {
 
 /// What each pixel of the depth image looks at: itself, or, near an outline, what lies on its other
 /// side.
-std::vector<size_t> StrayedPixels(const Rendering& rendering, const KinectNoise& noise,
+std::vector<size_t> StrayedPixels(const Rendering& rendering, const DepthNoise& noise,
                                   Random& random) {
   const int w = rendering.window.width, h = rendering.window.height;
   const auto du = SmoothNoise(w, h, 2.2, 2.2, random), dv = SmoothNoise(w, h, 2.2, 2.2, random);
@@ -160,8 +160,8 @@ std::vector<float> SmoothNoise(int width, int height, double sigma_u_px, double 
   return noise;
 }
 
-KinectNoise RandomKinectNoise(Random& random) {
-  KinectNoise noise;
+DepthNoise RandomKinectNoise(Random& random) {
+  DepthNoise noise;
   const double strength = random.Uniform(0.75, 1.15);
   noise.sigma_px *= strength * random.Uniform(0.85, 1.15);
   noise.coarse_sigma_px *= strength * random.Uniform(0.85, 1.15);
@@ -184,7 +184,7 @@ DepthCamera RandomDepthCamera(Random& random) {
         random.Uniform(0.02, 0.35);  // segmentation leaves some of it as well
   } else if (kind <
              0.78) {  // time of flight: no pattern, so no steps and no shadow, but mixed pixels
-    KinectNoise& noise = camera.noise;
+    DepthNoise& noise = camera.noise;
     focal_px = random.Uniform(345, 560);
     noise.sigma_px = random.Uniform(0.02, 0.06);
     noise.coarse_sigma_px = random.Uniform(0.01, 0.04);
@@ -195,7 +195,7 @@ DepthCamera RandomDepthCamera(Random& random) {
     noise.shadow_dropout = 0;
     noise.flying = random.Uniform(0.1, 0.6);
   } else {  // active stereo: a short base, wide windows
-    KinectNoise& noise = camera.noise;
+    DepthNoise& noise = camera.noise;
     focal_px = random.Uniform(385, 625);
     noise.baseline_focal_m_px = 0.05 * focal_px;
     noise.sigma_px = random.Uniform(0.01, 0.03);
@@ -213,7 +213,7 @@ DepthCamera RandomDepthCamera(Random& random) {
   return camera;
 }
 
-KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, Random& random) {
+KinectDepth SimulateDepth(const Rendering& rendering, const DepthNoise& noise, Random& random) {
   const Window& window = rendering.window;
   const int w = window.width, h = window.height;
   const auto source = StrayedPixels(rendering, noise, random);

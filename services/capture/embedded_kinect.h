@@ -1,5 +1,5 @@
-// What a Kinect makes of a rendering: depth by block matching of a projected pattern, and a noisy
-// colour image.
+// What a depth camera makes of a rendering: depth by block matching of a projected pattern, as a
+// Kinect does it, or as other kinds of cameras come to it; and a noisy colour image.
 #pragma once
 
 #include "services/capture/embedded_raycaster.h"
@@ -9,7 +9,7 @@ namespace beckon::capture {
 /// Depth errors arise in the disparity of the pattern (Khoshelham & Elberink, "Accuracy and
 /// Resolution of Kinect Depth Data", 2012): noise that is correlated over the matching window, then
 /// steps of 1/8 px.
-struct KinectNoise {
+struct DepthNoise {
   double baseline_focal_m_px = 42.9;  // disparity in px = this / depth
   // Two parts of noise; variance, correlation and steps match those measured in frames of tables:
   // residual of a plane .07 px within 13x13 px, .08 within 25x25, 72 % of neighbours equal.
@@ -29,13 +29,13 @@ struct KinectNoise {
 };
 
 /// The noise of one camera at one moment.
-KinectNoise RandomKinectNoise(Random& random);
+DepthNoise RandomKinectNoise(Random& random);
 
 /// A depth camera that a lab may have: a projected pattern (Kinect 1, Xtion), time of flight
 /// (Kinect 2, Azure) or active stereo (RealSense), its image registered to 640x480.
 struct DepthCamera {
   Intrinsics intrinsics;
-  KinectNoise noise;
+  DepthNoise noise;
 };
 DepthCamera RandomDepthCamera(Random& random);
 
@@ -44,7 +44,7 @@ struct KinectDepth {
   std::vector<uint16_t> labels;  // of the surface each depth was taken from; 0 where there is none
 };
 
-KinectDepth SimulateDepth(const Rendering& rendering, const KinectNoise& noise, Random& random);
+KinectDepth SimulateDepth(const Rendering& rendering, const DepthNoise& noise, Random& random);
 
 /// Blurs a little, adds sensor noise, clips.
 std::vector<Rgb> SimulateColour(const Rendering& rendering, Random& random);

@@ -30,7 +30,7 @@ Rendering Slanted() {
 }
 
 /// Deviation of the disparity from a plane within patches, median of all, in px.
-double PlaneResidual(const std::vector<float>& depth_m, const KinectNoise& noise, int half) {
+double PlaneResidual(const std::vector<float>& depth_m, const DepthNoise& noise, int half) {
   std::vector<double> all;
   for (int v = half; v < kHeight - half; v += 2 * half + 1) {
     for (int u = half; u < kWidth - half; u += 2 * half + 1) {
@@ -52,7 +52,7 @@ double PlaneResidual(const std::vector<float>& depth_m, const KinectNoise& noise
 TEST(KinectDepthTest, NoiseIsAsMeasuredOnTables) {
   // 45 frames of tables: .072 px within 13x13 px and .080 within 25x25 where a px is of 39.4 m px,
   // that is .078 and .087 here; 72 % of neighbours in a row are equal.
-  const KinectNoise noise;
+  const DepthNoise noise;
   Random random(3);
   const auto depth = SimulateDepth(Slanted(), noise, random).depth_m;
   EXPECT_NEAR(PlaneResidual(depth, noise, 6), 0.078, 0.008);
@@ -71,7 +71,7 @@ double CreaseSharpness(double smoothing_px) {
       roof.depth_m[size_t(v) * kWidth + u] = float(1 / (1.4 - 0.0025 * std::abs(v - kHeight / 2)));
     }
   }
-  KinectNoise noise;
+  DepthNoise noise;
   noise.smoothing_px = smoothing_px;
   Random random(5);
   const auto depth = SimulateDepth(roof, noise, random).depth_m;
@@ -89,7 +89,7 @@ double CreaseSharpness(double smoothing_px) {
 TEST(KinectDepthTest, RoundsCreasesAsThoseOfRealBoxesAre) {
   // .25 without smoothing; .13 on the front edges of the boxes in 45 frames of tables.
   EXPECT_GT(CreaseSharpness(0.1), 0.22);
-  EXPECT_NEAR(CreaseSharpness(KinectNoise{}.smoothing_px), 0.13, 0.02);
+  EXPECT_NEAR(CreaseSharpness(DepthNoise{}.smoothing_px), 0.13, 0.02);
 }
 
 TEST(KinectDepthTest, EveryCameraIsOfAKnownKind) {
@@ -100,7 +100,7 @@ TEST(KinectDepthTest, EveryCameraIsOfAKnownKind) {
     const DepthCamera camera = RandomDepthCamera(random);
     EXPECT_GT(camera.intrinsics.fx, 340);
     EXPECT_LT(camera.intrinsics.fx, 630);
-    with_steps += camera.noise.step_px == KinectNoise{}.step_px;
+    with_steps += camera.noise.step_px == DepthNoise{}.step_px;
     with_flying += camera.noise.flying > 0;
   }
   EXPECT_GT(with_steps, kCameras / 3);
@@ -114,7 +114,7 @@ TEST(KinectDepthTest, TimeOfFlightMixesDepthsAtOutlines) {
     step.labels[i] = i % kWidth < kWidth / 2 ? 1 : 2;
   }
   const auto between = [&](double flying) {
-    KinectNoise noise;
+    DepthNoise noise;
     noise.flying = flying;
     noise.edge_dropout = 0;
     Random random(7);
@@ -146,7 +146,7 @@ TEST(KinectDepthTest, SeesNothingWhereThePatternIsLost) {
   Rendering r = Slanted();
   EXPECT_EQ(share(r), 0);
   r.unlit.assign(r.unlit.size(), 1);
-  EXPECT_NEAR(share(r), KinectNoise{}.shadow_dropout, 0.05);
+  EXPECT_NEAR(share(r), DepthNoise{}.shadow_dropout, 0.05);
   r = Slanted();
   r.incidence.assign(r.incidence.size(), 0.05f);
   EXPECT_GT(share(r), 0.95);

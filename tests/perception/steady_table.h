@@ -42,7 +42,7 @@ class SteadyTable {
 
   capture::Random random_;
   capture::Stage stage_;
-  capture::KinectNoise noise_;
+  capture::DepthNoise noise_;
   std::vector<Object> objects_;
   std::optional<capture::Rendering> rendering_;  // of what is there now
   capture::KinectDepth depth_;
