@@ -84,9 +84,13 @@ void Perceiver::CategoriseAll(const RgbdImage& image, Perception& perception) {
   }
   std::vector<Categorisation> said(fresh.size());
   if (categorise_) said = CategoriseEach(image, perception, fresh);
+  // Where nothing is remembered and nothing was, there is nothing to compare looks with.
+  const bool compare = config_.remember || !examples_.all().empty();
   for (size_t i = 0; i < fresh.size(); ++i) {
-    evidence_[fresh[i]->id].Add(At(*fresh[i]), LookAtInstance(view(*fresh[i])), std::move(said[i]),
-                                examples_, config_.evidence);
+    InstanceLook look;
+    if (compare) look = LookAtInstance(view(*fresh[i]));
+    evidence_[fresh[i]->id].Add(At(*fresh[i]), look, std::move(said[i]), examples_,
+                                config_.evidence);
   }
   for (auto& object : perception.objects) {
     const bool is_new = std::ranges::find(fresh, &object) != fresh.end();
