@@ -8,6 +8,7 @@
 #include "services/base/app.h"
 #include "services/perception/category_evidence.h"
 #include "services/perception/train_data.h"
+#include "tests/perception/view_score.h"
 
 namespace {
 
@@ -103,28 +104,18 @@ void PrintNaming(const std::vector<Measured>& views, float ask_at_or_below) {
               percent(other.renamed, other.n));
 }
 
-struct Score {
-  int n = 0, right = 0;
-  double log_loss = 0;
-  void Add(const Categorisation& said, const std::string& truth) {
-    ++n;
-    right += said.probabilities.front().first == truth ? 1 : 0;
-    for (const auto& [name, p] : said.probabilities) {
-      if (name == truth) log_loss -= std::log(std::max(p, 1e-6f));
-    }
-  }
-  void Print(const char* what) const {
-    std::printf("  %-34s %6.1f%% right, log loss %.3f\n", what, 100.0 * right / n, log_loss / n);
-  }
-};
+void Print(const char* what, const ViewScore& score) {
+  std::printf("  %-34s %6.1f%% right, log loss %.3f\n", what, 100.0 * score.right / score.n,
+              score.log_loss / score.n);
+}
 
 void PrintEvidence(const std::vector<Measured>& views) {
   std::map<std::string, std::vector<const Measured*>> by_instance;
   for (const auto& view : views) {
     if (!view.said.probabilities.empty()) by_instance[view.instance].push_back(&view);
   }
-  Score single;
-  std::map<double, Score> pairs;
+  ViewScore single;
+  std::map<double, ViewScore> pairs;
   for (const auto& [instance, seen] : by_instance) {
     for (size_t i = 0; i < seen.size(); ++i) {
       for (size_t j = i + 1; j < seen.size(); ++j) {
@@ -141,11 +132,11 @@ void PrintEvidence(const std::vector<Measured>& views) {
   }
   if (single.n == 0) return;
   std::printf("categories, %d pairs of views of one product:\n", single.n / 2);
-  single.Print("one view");
+  Print("one view", single);
   for (const auto& [dependence, score] : pairs) {
     char what[64];
     std::snprintf(what, sizeof what, "both, dependence %.2f", dependence);
-    score.Print(what);
+    Print(what, score);
   }
 }
 

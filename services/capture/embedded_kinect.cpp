@@ -174,6 +174,8 @@ DepthNoise RandomKinectNoise(Random& random) {
   return noise;
 }
 
+// Of the Kinect's noise all but its loss at outlines is measured; the other cameras' is drawn wide,
+// so that what learns from it leans on none.
 DepthCamera RandomDepthCamera(Random& random) {
   DepthCamera camera;
   const double kind = random.Unit();

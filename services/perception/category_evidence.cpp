@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "services/perception/categoriser_confidence.h"
+#include "services/perception/model.h"
 
 namespace beckon::perception {
 namespace {
 
-constexpr char kUnknown[] = "Unknown";
 constexpr double kLeast = 1e-6;      // probability; no view rules a category out
 constexpr double kUnheardOf = 0.02;  // of a category that the categoriser does not know
 constexpr double kTold = 0.97;       // the user may err too

@@ -6,6 +6,7 @@
 
 #include "services/capture/embedded_object_view.h"
 #include "services/perception/category_evidence.h"
+#include "tests/perception/view_score.h"
 
 namespace beckon::perception {
 namespace {
@@ -44,23 +45,11 @@ Seen See(const capture::ObjectView& rendered, const Categoriser& categoriser) {
   return seen;
 }
 
-struct Score {
-  int n = 0, right = 0;
-  double log_loss = 0;
-  void Add(const Categorisation& said, const std::string& truth) {
-    ++n;
-    right += said.probabilities.front().first == truth ? 1 : 0;
-    for (const auto& [name, p] : said.probabilities) {
-      if (name == truth) log_loss -= std::log(std::max(p, 1e-6f));
-    }
-  }
-};
-
 TEST(Evidence, OfTwoViewsIsRightMoreOftenThanOfOne) {
   const auto categoriser =
       Categoriser::Load(BECKON_SOURCE_DIR "/services/perception/categories.model");
   ASSERT_TRUE(categoriser) << categoriser.error().message;
-  Score one, both;
+  ViewScore one, both;
   const ToldExamples examples;
   const EvidenceConfig config{.ask_at_or_below = categoriser->threshold()};
   for (size_t c = 0; c < capture::kCategories.size(); ++c) {
