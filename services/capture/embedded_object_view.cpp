@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "services/capture/embedded_kinect.h"
 #include "services/capture/embedded_stage.h"
@@ -181,12 +180,12 @@ std::optional<ObjectView> TryRender(const Model& model, bool any_camera, Random&
 
 }  // namespace
 
-ObjectView RenderObjectView(const Model& model, bool any_camera, Random& random) {
+std::optional<ObjectView> RenderObjectView(const Model& model, bool any_camera, Random& random) {
   constexpr int kAttempts = 1000;
   for (int i = 0; i < kAttempts; ++i) {
-    if (auto view = TryRender(model, any_camera, random)) return *std::move(view);
+    if (auto view = TryRender(model, any_camera, random)) return view;
   }
-  throw std::logic_error("a " + model.category + " fits no view");
+  return std::nullopt;
 }
 
 }  // namespace beckon::capture

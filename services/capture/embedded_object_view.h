@@ -23,7 +23,8 @@ struct ObjectView {
 };
 
 /// A random view of a model on a table, by a Kinect or by any depth camera that a lab may have; in
-/// about 30 % a neighbour hides part of it.
-ObjectView RenderObjectView(const Model& model, bool any_camera, Random& random);
+/// about 30 % a neighbour hides part of it. None where
+/// it never fits into view, or next to nothing of it is ever seen.
+std::optional<ObjectView> RenderObjectView(const Model& model, bool any_camera, Random& random);
 
 }  // namespace beckon::capture

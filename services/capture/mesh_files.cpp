@@ -121,6 +121,9 @@ Result<Model> ReadMesh(const MeshRecord& record, Random& random) {
     triangle.material =
         std::min(triangle.material, static_cast<uint32_t>(model.materials.size() - 1));
   }
+  if (model.mesh.triangles.empty()) {
+    return Error{record.path + ": expected a surface of triangles, found none"};
+  }
   if (model.mesh.triangles.size() > kMostTriangles) {
     return Error{record.path + ": expected at most " + std::to_string(kMostTriangles) +
                  " triangles, found " + std::to_string(model.mesh.triangles.size()) +

@@ -112,11 +112,16 @@ Result<std::string> WriteObject(const std::string& folder, const Job& job,
   if (!model) return model.error();
   std::string lines;
   for (int v = 0; v < plan.views; ++v) {
-    const ObjectView view = RenderObjectView(*model, plan.any_camera, random);
-    const Cloud cloud = ObjectCloud(view);
+    const auto view = RenderObjectView(*model, plan.any_camera, random);
+    if (!view) {
+      return Error{
+          job.category + "/" + job.instance +
+          ": fits no view of a table; expected an object of 2 to 40 cm or so, leave it out"};
+    }
+    const Cloud cloud = ObjectCloud(*view);
     const std::string stem = job.category + "/" + job.instance + "_view" + std::to_string(v);
-    if (auto status = WriteView(folder + "/" + stem, view, cloud); !status) return status.error();
-    lines += ManifestLine(view, stem, job.category, job.instance, v, cloud.points.size());
+    if (auto status = WriteView(folder + "/" + stem, *view, cloud); !status) return status.error();
+    lines += ManifestLine(*view, stem, job.category, job.instance, v, cloud.points.size());
   }
   return lines;
 }

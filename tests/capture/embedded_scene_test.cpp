@@ -101,7 +101,9 @@ TEST(ObjectViewTest, ShowsTheObjectWithItsMask) {
   for (int i = 0; i < kViews; ++i) {
     Random random(static_cast<uint64_t>(i));
     const Model model = MakeModel(static_cast<size_t>(i) % kCategories.size(), random);
-    const ObjectView view = RenderObjectView(model, i % 2 == 0, random);
+    const auto rendered = RenderObjectView(model, i % 2 == 0, random);
+    ASSERT_TRUE(rendered) << i;
+    const ObjectView& view = *rendered;
     ASSERT_EQ(view.mask.size(), view.crop.Size());
     ASSERT_EQ(view.depth_m.size(), view.crop.Size());
     ASSERT_EQ(view.colour.size(), view.crop.Size());

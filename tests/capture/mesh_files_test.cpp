@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <sstream>
 
 #include "services/capture/image_files.h"
 #include "services/capture/object_set_writer.h"
@@ -85,6 +87,35 @@ TEST_F(MeshFilesTest, SaysWhatIsWrongWithAMesh) {
   EXPECT_THAT(ListMeshes(Path("none")).error().message, HasSubstr("found none"));
 }
 
+TEST_F(MeshFilesTest, ADamagedMeshIsRefusedOrSound) {
+  const std::string whole = Cuboid(0.1);
+  for (const char* ending : {".obj", ".ply", ".stl"}) {
+    const std::string name = std::string("Box/damaged") + ending;
+    for (uint32_t round = 0; round < 150; ++round) {
+      std::mt19937 engine(round);
+      std::string damaged = whole;
+      for (uint32_t i = engine() % 12; i > 0; --i) {
+        damaged[engine() % damaged.size()] = static_cast<char>(engine());
+      }
+      if (round % 3 == 0) damaged.resize(engine() % damaged.size());
+      ASSERT_TRUE(WriteText(Path(name), damaged).ok());
+      Random random(round);
+      const auto model = ReadMesh({Path(name), "Box", "x"}, random);
+      if (!model) {
+        EXPECT_THAT(model.error().message, HasSubstr("damaged")) << round;
+        continue;
+      }
+      const Mesh& mesh = model->mesh;
+      ASSERT_EQ(mesh.uv.size(), mesh.positions.size());
+      for (const auto& p : mesh.positions) ASSERT_TRUE(p.allFinite()) << round;
+      for (const auto& triangle : mesh.triangles) {
+        ASSERT_LT(triangle.material, model->materials.size()) << round;
+        for (const uint32_t corner : triangle.corners) ASSERT_LT(corner, mesh.positions.size());
+      }
+    }
+  }
+}
+
 TEST_F(MeshFilesTest, RendersThemBesideTheFreshObjects) {
   ASSERT_TRUE(WriteText(Path("Box/soap.obj"), Cuboid(0.1)).ok());
   ObjectSetPlan plan;
@@ -98,6 +129,18 @@ TEST_F(MeshFilesTest, RendersThemBesideTheFreshObjects) {
               }).ok());
   EXPECT_EQ(told, 1u);
   EXPECT_TRUE(fs::exists(Path("out/Box/soap_view2_depth.png")));
+  // So small that no camera sees enough of it.
+  std::string needle = Cuboid(0.012);
+  for (const char* wide : {"0.03", "0.02"}) {
+    for (size_t at = needle.find(wide); at != std::string::npos; at = needle.find(wide)) {
+      needle.replace(at, 4, "0.0005");
+    }
+  }
+  ASSERT_TRUE(WriteText(Path("Box/needle.obj"), needle).ok());
+  const auto refused = WriteObjectSet(Path("needles"), plan);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("Box/needle: fits no view"));
+  fs::remove(Path("Box/needle.obj"));
   ASSERT_TRUE(WriteText(Path("Box/bad.obj"), "nothing\n").ok());
   const auto status = WriteObjectSet(Path("more"), plan);
   ASSERT_FALSE(status.ok());

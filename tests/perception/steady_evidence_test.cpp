@@ -59,7 +59,7 @@ TEST(Evidence, OfTwoViewsIsRightMoreOftenThanOfOne) {
       CategoryEvidence evidence;
       for (int view = 0; view < 2; ++view) {
         const Seen seen =
-            See(capture::RenderObjectView(model, /*any_camera=*/false, random), *categoriser);
+            See(*capture::RenderObjectView(model, /*any_camera=*/false, random), *categoriser);
         if (seen.said.probabilities.empty()) continue;
         one.Add(seen.said, capture::kCategories[c]);
         evidence.Add(seen.at, seen.look, seen.said, examples, config);
