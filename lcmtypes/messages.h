@@ -228,6 +228,7 @@ enum class SessionKind : int8_t {
   kRequestStop = 4,
   kRequestResume = 5,
   kRequestNoneOfThese = 6,
+  kRequestProfile = 7,
   kIdle = 16,
   kBegun = 17,
   kConfirmed = 18,
@@ -293,6 +294,69 @@ struct Label {
   int64_t scene_seq = 0;
   Utime scene_utime = 0;
   int object_id = 0;
+  Seal seal;
+};
+
+/// A session of a user's past, for people to look at.
+struct PastSession {
+  Utime utime = 0;
+  std::string action;
+  std::string category;
+  int instance = 1;
+  int questions = 0;
+  std::string device;
+};
+
+/// Most users and past sessions that a profile names.
+inline constexpr int kMaxUsers = 64;
+inline constexpr int kMaxPastSessions = 200;
+
+/// Whom intention knows, and one user's past.
+struct Profile {
+  Utime utime = 0;
+  std::string user;
+  std::vector<std::string> users;
+  int n_sessions = 0;
+  std::vector<PastSession> recent;  // oldest first
+  Seal seal;
+};
+
+/// What a scanning front end points at.
+struct Highlight {
+  Utime utime = 0;
+  std::string device;
+  std::string user;
+  int64_t query_id = 0;
+  std::vector<int> options;
+  std::vector<std::string> controls;
+  bool pressed = false;
+  bool paused = false;
+  int dwell_ms = 0;
+};
+
+enum class StimulusMode : int8_t { kMatrix = 1, kBinary = 2 };
+
+/// What a decoder of brain signals is to decode.
+struct Stimulus {
+  Utime utime = 0;
+  std::string device;
+  int64_t trial = 0;
+  int64_t query_id = 0;
+  int repetition = 1;
+  StimulusMode mode = StimulusMode::kMatrix;
+  int rows = 1;
+  int columns = 2;
+  std::vector<std::string> labels;  // one a class, row by row
+  Seal seal;
+};
+
+/// What it made of that.
+struct Decoding {
+  Utime utime = 0;
+  std::string decoder;
+  std::string device;
+  int64_t trial = 0;
+  std::vector<double> probabilities;  // one a class, sum 1
   Seal seal;
 };
 

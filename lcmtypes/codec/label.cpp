@@ -1,7 +1,5 @@
 // LABEL: what the user said an object is.
-#include <algorithm>
 #include <beckon/label_t.hpp>
-#include <cctype>
 
 #include "lcmtypes/codec.h"
 #include "lcmtypes/codec/message.h"
@@ -9,13 +7,6 @@
 
 namespace beckon {
 namespace codec {
-
-/// Users name rows and files: letters, digits, _ . - only.
-static bool IsUserName(const std::string& name) {
-  return std::ranges::all_of(name, [](unsigned char c) {
-    return (c < 0x80 && std::isalnum(c) != 0) || c == '_' || c == '.' || c == '-';
-  });
-}
 
 /// Categories name folders of examples.
 static bool IsFolderName(const std::string& name) {

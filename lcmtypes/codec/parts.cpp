@@ -1,11 +1,18 @@
 #include "lcmtypes/codec/parts.h"
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace beckon::codec {
+
+bool IsUserName(const std::string& name) {
+  return std::ranges::all_of(name, [](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c) != 0) || c == '_' || c == '.' || c == '-';
+  });
+}
 
 Rules& Rules::Text(const std::string& text, const char* field, size_t max) {
   Require(text.size() <= max, std::string(field) + " has " + std::to_string(text.size()) +

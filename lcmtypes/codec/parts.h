@@ -62,6 +62,9 @@ inline Eigen::Vector3d FromArray(const double (&v)[3]) { return {v[0], v[1], v[2
 void PoseToArrays(const Pose& pose, double (&position)[3], double (&rotation)[4]);
 Result<Pose> PoseFromArrays(const double (&position)[3], const double (&rotation)[4]);
 
+/// Users name rows and files: letters, digits, _ . - only.
+bool IsUserName(const std::string& name);
+
 /// LCM booleans are int8; anything but 0 and 1 is damage.
 inline bool IsBool(int8_t value) { return value == 0 || value == 1; }
 

@@ -1,7 +1,5 @@
 // SESSION: requests of front ends and events of a conversation.
-#include <algorithm>
 #include <beckon/session_t.hpp>
-#include <cctype>
 
 #include "lcmtypes/codec.h"
 #include "lcmtypes/codec/message.h"
@@ -12,14 +10,7 @@ namespace codec {
 
 static bool IsKind(msg::SessionKind kind) {
   const int k = static_cast<int>(kind);
-  return (k >= 1 && k <= 6) || (k >= 16 && k <= 20);
-}
-
-/// Users name rows and files: letters, digits, _ . - only.
-static bool IsUserName(const std::string& user) {
-  return std::ranges::all_of(user, [](unsigned char c) {
-    return (c < 0x80 && std::isalnum(c) != 0) || c == '_' || c == '.' || c == '-';
-  });
+  return (k >= 1 && k <= 7) || (k >= 16 && k <= 20);
 }
 
 static void Walk(Walker& w, const session_t*) {
@@ -35,6 +26,7 @@ static void Walk(Walker& w, const session_t*) {
 static Status Check(const msg::Session& session) {
   const bool idle = session.kind == msg::SessionKind::kIdle;
   const bool start = session.kind == msg::SessionKind::kRequestStart;
+  const bool profile = session.kind == msg::SessionKind::kRequestProfile;
   return Rules("session")
       .Time(session.utime)
       .Require(IsKind(session.kind), "kind is unknown")
@@ -43,6 +35,7 @@ static Status Check(const msg::Session& session) {
       .Require(IsUserName(session.user), "user: expected letters, digits, '_', '.' or '-'")
       .Require(!start || (!session.user.empty() && !session.session_id.empty()),
                "a request to start needs user and session_id")
+      .Require(!profile || !session.user.empty(), "a request of a profile needs user")
       .Require(!idle || session.session_id.empty(), "idle names no session")
       .Text(session.device, "device", kMaxName)
       .Require(session.questions >= 0, "questions is negative")

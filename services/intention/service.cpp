@@ -131,6 +131,7 @@ struct Service::State {
   void PublishOne(const msg::Session& event) { Send(event, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Profile& profile) { Send(profile, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) { bus.Refuse(refused.channel, refused.detail); }
 

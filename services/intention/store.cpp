@@ -137,6 +137,16 @@ Result<std::vector<SessionRecord>> Store::AllSessions() {
   });
 }
 
+Result<std::vector<std::string>> Store::Users() {
+  return Try<std::vector<std::string>>([&]() -> Result<std::vector<std::string>> {
+    SQLite::Statement query(*database_,
+                            "SELECT user FROM sessions GROUP BY user ORDER BY MAX(utime) DESC");
+    std::vector<std::string> users;
+    while (query.executeStep()) users.push_back(query.getColumn(0).getString());
+    return users;
+  });
+}
+
 Result<std::vector<LabelRecord>> Store::LabelsOf(const std::string& source) {
   return Try<std::vector<LabelRecord>>([&]() -> Result<std::vector<LabelRecord>> {
     SQLite::Statement query(

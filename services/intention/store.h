@@ -37,6 +37,7 @@ class Store : public Memory {
   ~Store() override;
 
   Result<std::vector<SessionRecord>> SessionsOf(const std::string& user) override;
+  Result<std::vector<std::string>> Users() override;
   Result<std::vector<LabelRecord>> LabelsOf(const std::string& source) override;
   Result<std::optional<SessionRecord>> FindSession(const std::string& session_id) override;
   Result<bool> Commit(const SessionRecord& session, const std::vector<LabelRecord>& labels,

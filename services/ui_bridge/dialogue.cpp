@@ -191,6 +191,19 @@ void Dialogue::Cancel() {
   Insist(msg::SessionKind::kRequestCancel);
 }
 
+void Dialogue::ChangeUser(const std::string& user) {
+  if (user == next_user_.value_or(config_.user)) return;
+  next_user_ = user;
+  Cancel();
+  if (phase_ == Phase::kIdle || phase_ == Phase::kStopped) TakeNextUser();
+}
+
+void Dialogue::TakeNextUser() {
+  if (!next_user_) return;
+  config_.user = *std::exchange(next_user_, std::nullopt);
+  output_.ShowUser(config_.user);
+}
+
 void Dialogue::Stop() { Insist(msg::SessionKind::kRequestStop); }
 
 void Dialogue::Resume() {
@@ -236,9 +249,9 @@ void Dialogue::End() {
   cancelled_ = false;
   wanted_ = false;
   phase_ = Phase::kIdle;
-  if (session_id_.empty()) return;
-  ended_.push_back(std::exchange(session_id_, {}));
+  if (!session_id_.empty()) ended_.push_back(std::exchange(session_id_, {}));
   if (ended_.size() > kEndedKept) ended_.pop_front();
+  TakeNextUser();
 }
 
 void Dialogue::ForgetChanges() {

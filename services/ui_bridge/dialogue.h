@@ -35,6 +35,8 @@ class DialogueOutput {
   virtual void Withdraw() = 0;
   /// Called when the event changes, not when it is repeated.
   virtual void ShowSession(const msg::Session& event) = 0;
+  /// Whose wishes count from now on, after ChangeUser.
+  virtual void ShowUser(const std::string& user) = 0;
   /// A line for the user.
   virtual void ShowNotice(const std::string& text) = 0;
 };
@@ -67,7 +69,11 @@ class Dialogue {
   void Cancel();
   void Stop();
   void Resume();
+  /// Somebody else's wishes from now on. A session that runs is cancelled first; `user` changes
+  /// when that was heard.
+  void ChangeUser(const std::string& user);
 
+  const std::string& user() const { return config_.user; }
   Phase phase() const { return phase_; }
   const std::string& session_id() const { return session_id_; }
   /// The question that stands; null where none does.
@@ -82,6 +88,7 @@ class Dialogue {
   };
 
   void BeginRequesting();
+  void TakeNextUser();
   void Join(const std::string& session_id);
   void End();
   void DropQuery();
@@ -97,15 +104,16 @@ class Dialogue {
   bool HasEnded(const std::string& session_id) const;
   msg::Session Request(msg::SessionKind kind) const;
 
-  const DialogueConfig config_;
+  DialogueConfig config_;
   const Clock& clock_;
   const Clock& steady_;
   const std::function<std::string()> new_session_id_;
   DialogueOutput& output_;
 
   Phase phase_ = Phase::kIdle;
-  bool wanted_ = false;     // the user wants a session
-  bool cancelled_ = false;  // the user no longer wants the one that runs
+  bool wanted_ = false;                   // the user wants a session
+  std::optional<std::string> next_user_;  // once the session that runs is cancelled
+  bool cancelled_ = false;                // the user no longer wants the one that runs
   Utime listen_until_;
   std::string session_id_;
   std::optional<msg::Query> query_;

@@ -16,8 +16,9 @@ class App;
 }
 
 namespace beckon {
+class Bus;
 class RunLoop;
-}
+}  // namespace beckon
 
 namespace beckon::ui_bridge {
 
@@ -28,8 +29,11 @@ class FrontEndSink {
   /// How likely what was received is under each option of the question; `OneHot` for a press.
   virtual void Answer(int64_t query_id, const std::vector<double>& likelihoods) = 0;
   /// A REQUEST_* of session_t. kRequestStop is sent at once and repeated until intention has
-  /// stopped.
+  /// stopped; kRequestProfile is repeated until a profile of the user came.
   virtual void Request(msg::SessionKind request) = 0;
+  /// Somebody else is in front of it now. What runs is cancelled; ShowUser tells every front end of
+  /// this program when that is done. Fails where the name is none.
+  virtual Status ChooseUser(const std::string& user) = 0;
   /// This front end is through; the program ends when all are.
   virtual void Finish() = 0;
 };
@@ -55,8 +59,14 @@ class FrontEnd {
   virtual void ShowNotice(const std::string& text) = 0;
   /// What is on the table, whenever it is seen anew.
   virtual void ShowScene(const msg::Scene&) {}
+  /// What the robot was told to do for this user.
+  virtual void ShowTask(const msg::Task&) {}
   /// What became of a task.
   virtual void ShowTaskStatus(const msg::TaskStatus&) {}
+  /// Whose wishes it asks for from now on.
+  virtual void ShowUser(const std::string&) {}
+  /// The user's past, after kRequestProfile and whenever it grew.
+  virtual void ShowProfile(const msg::Profile&) {}
   /// One line for BECKON_STATUS.
   virtual std::string State() const = 0;
 };
@@ -64,9 +74,11 @@ class FrontEnd {
 /// What a front end is made with; all outlive it.
 struct FrontEndSetup {
   std::string device;
+  std::string user;             // until ShowUser
   int exit_after_sessions = 0;  // Finish after so many sessions, confirmed or not; 0 = never
   RunLoop& loop;
   FrontEndSink& sink;
+  Bus& bus;  // for messages beyond those that FrontEnd is shown; subscribe in Begin
 };
 
 class FrontEndFactory {

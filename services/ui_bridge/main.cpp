@@ -23,7 +23,8 @@ Status Run(Options& options, std::vector<std::unique_ptr<ui_bridge::FrontEndFact
   if (!config) return config.error();
   for (auto& factory : factories) factory->Configure(config->Section(factory->name()));
   if (auto right = config->Finish(); !right) return right;
-  if (auto right = ui_bridge::ValidateUser(options.service.user); !right) return right;
+  if (auto right = ui_bridge::ValidateUser(options.service.user); !right)
+    return Error{"--user: " + right.error().message};
   if (options.app.check_config) return {};
 
   RunLoop loop(/*handle_signals=*/true);

@@ -16,6 +16,7 @@ namespace beckon::ui_bridge {
 namespace {
 
 constexpr Utime kTick_us = 50'000;
+constexpr Utime kProfileRepeat_us = 500'000;
 constexpr Utime kFarewell_us = kSecond;  // for a last cancel to be heard
 
 bool IsNameCharacter(char c) {
@@ -41,7 +42,7 @@ std::string DefaultDevice(const std::string& front_end) {
 
 Status ValidateUser(const std::string& user) {
   if (!user.empty() && user.size() <= 64 && std::ranges::all_of(user, IsNameCharacter)) return {};
-  return Error{"--user '" + user + "': expected 1 to 64 letters, digits, '_', '.' or '-'"};
+  return Error{"user '" + user + "': expected 1 to 64 letters, digits, '_', '.' or '-'"};
 }
 
 class Service::Line final : public DialogueOutput, public FrontEndSink {
@@ -54,9 +55,11 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
 
   Status Create(FrontEndFactory& factory) {
     auto made = factory.Create({.device = device_,
+                                .user = service_.config_.user,
                                 .exit_after_sessions = service_.config_.exit_after_sessions,
                                 .loop = service_.loop_,
-                                .sink = *this});
+                                .sink = *this,
+                                .bus = service_.bus_});
     if (!made) return Error{"--front-end " + factory.name() + ": " + made.error().message};
     front_end_ = *std::move(made);
     return {};
@@ -71,6 +74,33 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
     interface.utime = service_.clock_.Now();
     interface.device = device_;
     Publish(interface);
+  }
+
+  /// Repeats what has no answer yet.
+  void Tick() {
+    dialogue_.Tick();
+    const Utime now = service_.steady_.Now();
+    if (profile_due_ && now >= *profile_due_) {
+      profile_due_ = now + kProfileRepeat_us;
+      msg::Session request;
+      request.utime = service_.clock_.Now();
+      request.user = dialogue_.user();
+      request.device = device_;
+      request.kind = msg::SessionKind::kRequestProfile;
+      PublishSealed(request);
+    }
+  }
+
+  void OnTask(const msg::Task& task) {
+    if (task.user != dialogue_.user() || task.task_id == shown_task_) return;
+    shown_task_ = task.task_id;
+    front_end_->ShowTask(task);
+  }
+
+  void OnProfile(const msg::Profile& profile) {
+    if (profile.user != dialogue_.user()) return;
+    profile_due_.reset();
+    front_end_->ShowProfile(profile);
   }
 
   void OnTaskStatus(const msg::TaskStatus& status) {
@@ -105,6 +135,7 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
     if (early_ && early_->task_id == task_id_) OnTaskStatus(*std::exchange(early_, std::nullopt));
   }
   void ShowNotice(const std::string& text) override { front_end_->ShowNotice(text); }
+  void ShowUser(const std::string& user) override { front_end_->ShowUser(user); }
 
   // FrontEndSink
   void Answer(int64_t query_id, const std::vector<double>& likelihoods) override {
@@ -124,10 +155,14 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
         return dialogue_.Resume();
       case msg::SessionKind::kRequestNoneOfThese:
         return dialogue_.NoneOfThese();
+      case msg::SessionKind::kRequestProfile:
+        profile_due_ = service_.steady_.Now();
+        return Tick();
       default:
         spdlog::error("{}: a front end asked for what only intention may announce", device_);
     }
   }
+  Status ChooseUser(const std::string& user) override { return service_.ChooseUser(user); }
   void Finish() override { finished_at_ = service_.steady_.Now(); }
 
  private:
@@ -149,6 +184,8 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   Dialogue dialogue_;
   std::unique_ptr<FrontEnd> front_end_;
   std::optional<Utime> finished_at_;
+  std::optional<Utime> profile_due_;  // while one is asked for
+  std::string shown_task_;
   std::string task_id_;
   std::optional<msg::TaskState> task_state_;
   std::optional<msg::TaskStatus> early_;
@@ -181,6 +218,12 @@ void Service::Begin() {
         for (auto& line : lines_) line->front_end().ShowScene(scene);
       },
       1);
+  bus_.Subscribe<msg::Task>([this](const msg::Task& task) {
+    for (auto& line : lines_) line->OnTask(task);
+  });
+  bus_.Subscribe<msg::Profile>([this](const msg::Profile& profile) {
+    for (auto& line : lines_) line->OnProfile(profile);
+  });
   bus_.Subscribe<msg::TaskStatus>([this](const msg::TaskStatus& status) {
     for (auto& line : lines_) line->OnTaskStatus(status);
   });
@@ -190,10 +233,16 @@ void Service::Begin() {
   announce();
   loop_.Every(kSecond, announce);
   loop_.Every(kTick_us, [this] {
-    for (auto& line : lines_) line->dialogue().Tick();
+    for (auto& line : lines_) line->Tick();
     StopWhenAllFinished();
   });
   for (auto& line : lines_) line->front_end().Begin();
+}
+
+Status Service::ChooseUser(const std::string& user) {
+  if (auto right = ValidateUser(user); !right) return right;
+  for (auto& line : lines_) line->dialogue().ChangeUser(user);
+  return {};
 }
 
 std::string Service::State() const {

@@ -43,6 +43,9 @@ class Service {
  private:
   class Line;  // a front end with its dialogue
 
+  /// Of all front ends: they are in front of the same person.
+  Status ChooseUser(const std::string& user);
+
   void StopWhenAllFinished();
 
   const ServiceConfig config_;

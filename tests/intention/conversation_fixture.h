@@ -38,6 +38,7 @@ class Desk {
       if (const auto* t = std::get_if<msg::Task>(&action)) tasks.push_back(*t);
       if (const auto* t = std::get_if<msg::TaskStatus>(&action)) statuses.push_back(*t);
       if (const auto* l = std::get_if<msg::Label>(&action)) labels.push_back(*l);
+      if (const auto* p = std::get_if<msg::Profile>(&action)) profiles.push_back(*p);
       if (const auto* r = std::get_if<Refused>(&action)) refusals.push_back(*r);
     }
   }
@@ -47,6 +48,7 @@ class Desk {
     tasks.clear();
     statuses.clear();
     labels.clear();
+    profiles.clear();
     refusals.clear();
   }
 
@@ -155,6 +157,7 @@ class Desk {
   std::vector<msg::Task> tasks;
   std::vector<msg::TaskStatus> statuses;
   std::vector<msg::Label> labels;
+  std::vector<msg::Profile> profiles;
   std::vector<Refused> refusals;
 };
 

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "lcmtypes/codec.h"
 #include "tests/intention/conversation_fixture.h"
 
 namespace beckon::intention {
@@ -54,6 +55,51 @@ TEST_F(ConversationTest, AsksOnceTheSecondTime) {
   desk.Answer(desk.queries.back(), 0);
   EXPECT_EQ(desk.events.back().kind, Kind::kConfirmed);
   EXPECT_EQ(memory.sessions[1].questions, 1);
+}
+
+TEST_F(ConversationTest, TellsFrontEndsOfAUsersPast) {
+  Begin();
+  desk.Converse(open_carton);
+  EXPECT_TRUE(desk.profiles.empty());
+  desk.Request(Kind::kRequestProfile, "", "ben");
+  ASSERT_EQ(desk.profiles.size(), 1u);
+  EXPECT_EQ(desk.profiles[0].user, "ben");
+  EXPECT_EQ(desk.profiles[0].users, std::vector<std::string>{"ann"});
+  EXPECT_EQ(desk.profiles[0].n_sessions, 0);
+  desk.Request(Kind::kRequestProfile, "", "ann");
+  ASSERT_EQ(desk.profiles.size(), 2u);
+  ASSERT_EQ(desk.profiles[1].recent.size(), 1u);
+  EXPECT_EQ(desk.profiles[1].recent[0].action, "Open");
+  EXPECT_EQ(desk.profiles[1].recent[0].category, "Carton");
+  EXPECT_EQ(desk.profiles[1].recent[0].questions, desk.tasks[0].questions);
+}
+
+TEST_F(ConversationTest, TellsOfThePastAgainAfterASessionThatTheUserSaw) {
+  Begin();
+  desk.Request(Kind::kRequestProfile, "", "ann");
+  desk.Converse(open_carton);
+  desk.Wait(kSecond);
+  ASSERT_EQ(desk.profiles.size(), 2u);
+  EXPECT_EQ(desk.profiles[0].n_sessions, 0);
+  EXPECT_EQ(desk.profiles[1].n_sessions, 1);
+}
+
+TEST_F(ConversationTest, AProfileNamesNoMoreThanFitsOneDatagram) {
+  for (int i = 0; i < 300; ++i) {
+    SessionRecord past;
+    past.session_id = "p" + std::to_string(i);
+    past.user = i < 100 ? "user" + std::to_string(i) : "ann";
+    past.utime = i;
+    past.action = "Open";
+    past.category = "Carton";
+    past.device = std::string(64, 'd');
+    memory.sessions.push_back(past);
+  }
+  desk.Request(Kind::kRequestProfile, "", "ann");
+  ASSERT_EQ(desk.profiles.size(), 1u);
+  EXPECT_EQ(desk.profiles[0].users.size(), static_cast<size_t>(msg::kMaxUsers));
+  EXPECT_EQ(desk.profiles[0].recent.back().utime, 299);
+  EXPECT_TRUE(Codec<msg::Profile>::Encode(desk.profiles[0]).ok());
 }
 
 TEST_F(ConversationTest, TaskIsNotPublishedWhereItCannotBeRemembered) {

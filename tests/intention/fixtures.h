@@ -76,6 +76,14 @@ class FakeMemory : public Memory {
     }
     return found;
   }
+  Result<std::vector<std::string>> Users() override {
+    std::vector<std::string> users;
+    for (auto session = sessions.rbegin(); session != sessions.rend(); ++session) {
+      if (std::find(users.begin(), users.end(), session->user) == users.end())
+        users.push_back(session->user);
+    }
+    return users;
+  }
   Result<std::vector<LabelRecord>> LabelsOf(const std::string&) override { return labels; }
   Result<std::optional<SessionRecord>> FindSession(const std::string& id) override {
     for (const auto& session : sessions) {

@@ -117,6 +117,19 @@ TEST_F(StoreTest, RemembersOverRestarts) {
   EXPECT_EQ(*store->RowCount(), 3);
 }
 
+TEST_F(StoreTest, NamesItsUsersTheLatestFirst) {
+  const auto store = Open();
+  Commit(*store, Session("s1", "ann", 1000));
+  Commit(*store, Session("s2", "bob", 2000));
+  Commit(*store, Session("s3", "ann", 3000));
+  Commit(*store, Session("s4", "cy", 2500));
+  const auto users = store->Users();
+  ASSERT_TRUE(users.ok());
+  EXPECT_EQ(*users, (std::vector<std::string>{"ann", "cy", "bob"}));
+  ASSERT_TRUE(store->ForgetUser("cy", 4000).ok());
+  EXPECT_EQ(*store->Users(), (std::vector<std::string>{"ann", "bob"}));
+}
+
 TEST_F(StoreTest, DuplicateSessionIsAlreadyThere) {
   const auto store = Open();
   Commit(*store, Session("s1"));

@@ -5,15 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <beckon/answer_t.hpp>
+#include <beckon/decoding_t.hpp>
 #include <beckon/frame_t.hpp>
+#include <beckon/highlight_t.hpp>
 #include <beckon/history_t.hpp>
 #include <beckon/interface_t.hpp>
 #include <beckon/label_t.hpp>
 #include <beckon/poses_t.hpp>
+#include <beckon/profile_t.hpp>
 #include <beckon/query_t.hpp>
 #include <beckon/scene_t.hpp>
 #include <beckon/session_t.hpp>
 #include <beckon/status_t.hpp>
+#include <beckon/stimulus_t.hpp>
 #include <beckon/task_status_t.hpp>
 #include <beckon/task_t.hpp>
 #include <cmath>
@@ -235,6 +239,19 @@ TEST(Codec, RefusesValuesThatBreakTheRules) {
   EXPECT_TRUE(refused(msg::ExampleLabel(), [](auto& l) { l.scene_seq = 0; }));
   EXPECT_TRUE(
       refused(msg::ExampleLabel(), [](auto& l) { l.state = static_cast<msg::LabelState>(3); }));
+  EXPECT_TRUE(refused(msg::ExampleProfile(), [](auto& p) { p.users[1] = "../../etc"; }));
+  EXPECT_TRUE(refused(msg::ExampleProfile(), [](auto& p) { p.n_sessions = 1; }));
+  EXPECT_TRUE(refused(msg::ExampleProfile(), [](auto& p) { p.recent[0].questions = -1; }));
+  EXPECT_TRUE(refused(msg::ExampleProfile(), [](auto& p) { p.recent[1].action.clear(); }));
+  EXPECT_TRUE(refused(msg::ExampleHighlight(), [](auto& h) { h.options[1] = 64; }));
+  EXPECT_TRUE(refused(msg::ExampleHighlight(), [](auto& h) { h.dwell_ms = -1; }));
+  EXPECT_TRUE(refused(msg::ExampleHighlight(), [](auto& h) { h.user = "../../etc"; }));
+  EXPECT_TRUE(refused(msg::ExampleStimulus(), [](auto& s) { s.rows = 2; }));
+  EXPECT_TRUE(refused(msg::ExampleStimulus(), [](auto& s) { s.columns = -3; }));
+  EXPECT_TRUE(refused(msg::ExampleStimulus(), [](auto& s) { s.labels.pop_back(); }));
+  EXPECT_TRUE(refused(msg::ExampleDecoding(), [](auto& d) { d.probabilities[0] = 0.4; }));
+  EXPECT_TRUE(refused(msg::ExampleDecoding(), [&](auto& d) { d.probabilities[0] = nan; }));
+  EXPECT_TRUE(refused(msg::ExampleDecoding(), [](auto& d) { d.probabilities = {-0.5, 1.5}; }));
   EXPECT_TRUE(refused(msg::ExampleFrame(), [](auto& f) { f.width = 0; }));
   EXPECT_TRUE(refused(msg::ExampleFrame(), [&](auto& f) { f.intrinsics.fx = nan; }));
 }
@@ -252,7 +269,11 @@ TEST(Codec, FingerprintsAreLocked) {
                                                {"task_status_t", task_status_t::getHash()},
                                                {"history_t", history_t::getHash()},
                                                {"status_t", status_t::getHash()},
-                                               {"label_t", label_t::getHash()}};
+                                               {"label_t", label_t::getHash()},
+                                               {"profile_t", profile_t::getHash()},
+                                               {"highlight_t", highlight_t::getHash()},
+                                               {"stimulus_t", stimulus_t::getHash()},
+                                               {"decoding_t", decoding_t::getHash()}};
   const std::map<std::string, uint64_t> locked = {
       {"answer_t", 0xa22727a8afbaf8c6},      {"frame_t", 0x5b22eba1617c64a5},
       {"history_t", 0xcd16f6d015811a6c},     {"interface_t", 0x8fbf178510e3e991},

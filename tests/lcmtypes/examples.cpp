@@ -190,6 +190,55 @@ Label ExampleLabel() {
           .seal = ExampleSeal()};
 }
 
+Profile ExampleProfile() {
+  return {.utime = 5,
+          .user = "ann",
+          .users = {"ann", "ben"},
+          .n_sessions = 12,
+          .recent = {{.utime = 3,
+                      .action = "Open",
+                      .category = "Carton",
+                      .instance = 1,
+                      .questions = 4,
+                      .device = "switch@kitchen"},
+                     {.utime = 4, .action = "Grasp", .category = "Mug", .questions = 1}},
+          .seal = ExampleSeal()};
+}
+
+Highlight ExampleHighlight() {
+  return {.utime = 5,
+          .device = "switch@kitchen",
+          .user = "ann",
+          .query_id = 7,
+          .options = {0, 2},
+          .controls = {"undo"},
+          .pressed = true,
+          .paused = false,
+          .dwell_ms = 1000};
+}
+
+Stimulus ExampleStimulus() {
+  return {.utime = 5,
+          .device = "bci@kitchen",
+          .trial = 9,
+          .query_id = 7,
+          .repetition = 2,
+          .mode = StimulusMode::kMatrix,
+          .rows = 1,
+          .columns = 3,
+          .labels = {"Open", "Grasp", ""},
+          .seal = ExampleSeal()};
+}
+
+Decoding ExampleDecoding() {
+  return {.utime = 6,
+          .decoder = "p300",
+          .device = "bci@kitchen",
+          .trial = 9,
+          .probabilities = {0.5, 0.25, 0.25},
+          .seal = ExampleSeal()};
+}
+
 History ExampleHistory() {
   return {.utime = 1,
           .machine = "kitchen",

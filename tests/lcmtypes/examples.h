@@ -17,6 +17,10 @@ Session ExampleSession();
 Task ExampleTask();
 TaskStatus ExampleTaskStatus();
 Label ExampleLabel();
+Profile ExampleProfile();
+Highlight ExampleHighlight();
+Stimulus ExampleStimulus();
+Decoding ExampleDecoding();
 History ExampleHistory();
 Status ExampleStatus();
 
@@ -24,7 +28,8 @@ Status ExampleStatus();
 inline auto AllExamples() {
   return std::make_tuple(ExampleFrame(), ExampleScene(), ExamplePoses(), ExampleInterface(),
                          ExampleQuery(), ExampleAnswer(), ExampleSession(), ExampleTask(),
-                         ExampleTaskStatus(), ExampleLabel(), ExampleHistory(), ExampleStatus());
+                         ExampleTaskStatus(), ExampleLabel(), ExampleProfile(), ExampleHighlight(),
+                         ExampleStimulus(), ExampleDecoding(), ExampleHistory(), ExampleStatus());
 }
 
 }  // namespace beckon::msg

@@ -19,6 +19,7 @@ class Recorder final : public DialogueOutput {
   void Withdraw() override { ++withdrawn; }
   void ShowSession(const msg::Session& event) override { shown.push_back(event.kind); }
   void ShowNotice(const std::string& text) override { notices.push_back(text); }
+  void ShowUser(const std::string& user) override { users.push_back(user); }
 
   int Count(SessionKind kind) const {
     return static_cast<int>(std::ranges::count(requests, kind, &msg::Session::kind));
@@ -29,6 +30,7 @@ class Recorder final : public DialogueOutput {
   std::vector<int64_t> presented;
   std::vector<SessionKind> shown;
   std::vector<std::string> notices;
+  std::vector<std::string> users;
   int withdrawn = 0;
 };
 
@@ -407,6 +409,32 @@ TEST_F(DialogueTest, NoneOfTheseIsTheLastOptionWhereAnObjectIsAskedAbout) {
   EXPECT_EQ(out_.Count(SessionKind::kRequestNoneOfThese), 0);
   ASSERT_EQ(out_.answers.size(), 1u);
   EXPECT_THAT(out_.answers[0].likelihoods, ElementsAre(0, 0, 1));
+}
+
+TEST_F(DialogueTest, AnotherUserIsServedOnceTheSessionThatRunsIsCancelled) {
+  const auto id = Begin();
+  dialogue_.ChangeUser("ben");
+  EXPECT_GE(out_.Count(SessionKind::kRequestCancel), 1);
+  EXPECT_THAT(out_.users, IsEmpty());
+  Ask(1, id);
+  EXPECT_THAT(out_.presented, IsEmpty());
+  Hear(SessionKind::kAbandoned, id);
+  EXPECT_THAT(out_.users, ElementsAre("ben"));
+  Ask(2, "bens session", 0, "ben");
+  EXPECT_THAT(out_.presented, ElementsAre(2));
+  Ask(3, "anns session", 0, "ann");
+  EXPECT_THAT(out_.presented, ElementsAre(2));
+}
+
+TEST_F(DialogueTest, AnotherUserIsServedAtOnceWhereNoSessionRuns) {
+  dialogue_.ChangeUser("ben");
+  EXPECT_THAT(out_.users, ElementsAre("ben"));
+  dialogue_.ChangeUser("ben");
+  EXPECT_THAT(out_.users, ElementsAre("ben"));
+  dialogue_.Start();
+  Pass(2 * kSecond);
+  ASSERT_FALSE(out_.requests.empty());
+  EXPECT_EQ(out_.requests.back().user, "ben");
 }
 
 TEST_F(DialogueTest, SaysSoWhenIntentionFallsSilent) {

@@ -145,6 +145,10 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
     case Kind::kRequestResume:
       Resume(request, now);
       return Taken();
+    case Kind::kRequestProfile:
+      if (profiled_.size() < msg::kMaxUsers) profiled_[request.user] = false;
+      TellProfile(request.user, now);
+      return Taken();
     case Kind::kRequestCancel:
     case Kind::kRequestUndo:
     case Kind::kRequestNoneOfThese:

@@ -45,8 +45,8 @@ struct Refused {
 };
 
 /// Unsealed messages, to be published in this order.
-using Outgoing =
-    std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, msg::Label, Refused>;
+using Outgoing = std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, msg::Label,
+                              msg::Profile, Refused>;
 using Actions = std::vector<Outgoing>;
 
 struct ConversationCounters {
@@ -141,6 +141,9 @@ class Conversation {
   void End(std::string user);
   void Stop(const msg::Session& request, Utime now);
   void Resume(const msg::Session& request, Utime now);
+  /// Tells front ends of a user's past.
+  void TellProfile(const std::string& user, Utime now);
+  void TellProfiles(Utime now);
   void RevokeTasks(Utime now);
   void RepeatTasks(Utime now);
 
@@ -173,6 +176,7 @@ class Conversation {
   std::map<std::string, DeviceModel> devices_;
   std::deque<RequestIdentity> seen_;          // the last few requests
   std::deque<msg::Session> ended_;            // the last few outcomes, newest at the back
+  std::map<std::string, bool> profiled_;      // users whose profile was asked for; true: it is due
   std::set<std::string> unknown_categories_;  // that were complained about
   msg::Session latest_;                       // the event that is announced while nothing runs
   Utime latest_announced_ = 0;

@@ -90,6 +90,8 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
   event.questions = record.questions;
   event.text = DoneText(accepted.text);
   Announce(event, now);
+  if (const auto asked = profiled_.find(record.user); asked != profiled_.end())
+    asked->second = true;
   End(talk.user);
 }
 
@@ -208,6 +210,7 @@ Actions Conversation::Tick(Utime now) {
   // A scene that was fresh may have grown old, and poses are waited for only so long.
   for (Talk* talk : Talks()) Recheck(*talk, now);
   BeginWaiting(now);
+  TellProfiles(now);
   if (now - latest_announced_ >= config_.announce_period && (stopped_ || talks_.empty())) {
     latest_.utime = now;
     Announce(msg::Session(latest_), now);

@@ -68,6 +68,8 @@ class Memory {
 
   /// Oldest first, without what was forgotten.
   virtual Result<std::vector<SessionRecord>> SessionsOf(const std::string& user) = 0;
+  /// All that have a session which is not forgotten, the latest first.
+  virtual Result<std::vector<std::string>> Users() = 0;
   /// Oldest first.
   virtual Result<std::vector<LabelRecord>> LabelsOf(const std::string& source) = 0;
   /// Also sessions that were forgotten: their ids are taken.
