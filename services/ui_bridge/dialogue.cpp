@@ -47,7 +47,7 @@ void Dialogue::OnQuery(const msg::Query& query) {
   if (query.user != config_.user) return;
   heard_ = steady_.Now();
   silent_ = false;
-  if (phase_ == Phase::kStopped || cancelled_ || HasEnded(query.session_id)) return;
+  if (phase_ == Phase::kStopped || Stopping() || cancelled_ || HasEnded(query.session_id)) return;
   if (phase_ != Phase::kRunning || query.session_id != session_id_) Join(query.session_id);
   if (!presented_.insert(query.id).second) return;
   answer_.reset();
@@ -72,18 +72,15 @@ void Dialogue::OnSession(const msg::Session& event) {
     case msg::SessionKind::kAbandoned:
       return OnEnd(event);
     case msg::SessionKind::kStopped:
-      if (control_ && control_->message.kind == msg::SessionKind::kRequestStop) control_.reset();
-      start_.reset();
-      wanted_ = false;
+      if (Stopping()) control_.reset();
       phase_ = Phase::kStopped;
-      DropQuery();
-      ForgetChanges();
+      LayDown();
       return ShowOnce(event);
     default:
       break;
   }
   // BEGUN
-  if (HasEnded(event.session_id)) return;
+  if (Stopping() || HasEnded(event.session_id)) return;
   if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
   if (phase_ != Phase::kRunning || event.session_id != session_id_) Join(event.session_id);
   if (answer_ && query_ && event.questions > query_->questions_asked) answer_.reset();
@@ -130,13 +127,14 @@ void Dialogue::OnEnd(const msg::Session& event) {
 }
 
 void Dialogue::Start() {
+  if (Stopping()) return;
   wanted_ = true;
   Tick();
 }
 
 void Dialogue::Answer(int64_t query_id, const std::vector<double>& likelihoods) {
   if (phase_ != Phase::kRunning || !query_ || query_->id != query_id || cancelled_) return;
-  if (change_) return;
+  if (change_ || Stopping()) return;
   msg::Answer answer;
   answer.utime = clock_.Now();
   answer.query_id = query_id;
@@ -160,7 +158,8 @@ void Dialogue::NoneOfThese() {
 }
 
 void Dialogue::Change(msg::SessionKind kind) {
-  if (phase_ != Phase::kRunning || cancelled_ || changes_.size() >= kMostChanges) return;
+  if (phase_ != Phase::kRunning || cancelled_ || Stopping()) return;
+  if (changes_.size() >= kMostChanges) return;
   changes_.push_back(kind);
   SendNextChange();
 }
@@ -204,15 +203,28 @@ void Dialogue::TakeNextUser() {
   output_.ShowUser(config_.user);
 }
 
-void Dialogue::Stop() { Insist(msg::SessionKind::kRequestStop); }
+void Dialogue::Stop() {
+  Insist(msg::SessionKind::kRequestStop);
+  LayDown();
+}
 
 void Dialogue::Resume() {
   if (phase_ == Phase::kStopped) Insist(msg::SessionKind::kRequestResume);
 }
 
+bool Dialogue::Stopping() const {
+  return control_ && control_->message.kind == msg::SessionKind::kRequestStop;
+}
+
+void Dialogue::LayDown() {
+  start_.reset();
+  wanted_ = false;
+  DropQuery();
+  ForgetChanges();
+}
+
 void Dialogue::Insist(msg::SessionKind kind) {
-  const bool stopping = control_ && control_->message.kind == msg::SessionKind::kRequestStop;
-  if (stopping && kind == msg::SessionKind::kRequestCancel) return;  // stopping goes first
+  if (Stopping() && kind != msg::SessionKind::kRequestStop) return;  // stopping goes first
   control_ = {Request(kind), steady_.Now() + config_.repeat_us};
   output_.Send(control_->message);
 }

@@ -67,6 +67,8 @@ class Dialogue {
   void Undo();
   void NoneOfThese();
   void Cancel();
+  /// From now on nothing is answered and nothing asked; only Resume, once intention has stopped,
+  /// leads out of it.
   void Stop();
   void Resume();
   /// Somebody else's wishes from now on. A session that runs is cancelled first; `user` changes
@@ -96,6 +98,10 @@ class Dialogue {
   void OnIdle(const msg::Session& event);
   void OnEnd(const msg::Session& event);
   void Insist(msg::SessionKind kind);
+  /// Intention has not said yet that it stopped.
+  bool Stopping() const;
+  /// Forgets what was to be asked or said.
+  void LayDown();
   void Change(msg::SessionKind kind);
   void SendNextChange();
   void ForgetChanges();

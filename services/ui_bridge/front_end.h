@@ -34,7 +34,7 @@ class FrontEndSink {
   /// Somebody else is in front of it now. What runs is cancelled; ShowUser tells every front end of
   /// this program when that is done. Fails where the name is none.
   virtual Status ChooseUser(const std::string& user) = 0;
-  /// This front end is through; the program ends when all are.
+  /// This front end is through; the program ends when all are, but for endless ones.
   virtual void Finish() = 0;
 };
 
@@ -67,6 +67,9 @@ class FrontEnd {
   virtual void ShowUser(const std::string&) {}
   /// The user's past, after kRequestProfile and whenever it grew.
   virtual void ShowProfile(const msg::Profile&) {}
+  /// Whether it waits for people who may come at any time, so that the program does not stay for
+  /// its sake when the others are through.
+  virtual bool Endless() const { return false; }
   /// One line for BECKON_STATUS.
   virtual std::string State() const = 0;
 };

@@ -80,6 +80,8 @@ class ConsoleFrontEnd final : public FrontEnd {
 
   void ShowSession(const msg::Session& event) override {
     if (const std::string text = RenderSession(event); !text.empty()) Print(text + "\n");
+    stopped_ = event.kind == msg::SessionKind::kStopped;
+    if (stopped_) lines_.clear();
     if (event.kind == msg::SessionKind::kBegun) in_session_ = describe_ = true;
     if (event.kind == msg::SessionKind::kConfirmed) robot_at_work_ = true;
     if (event.kind == msg::SessionKind::kBegun) robot_at_work_ = false;
@@ -170,7 +172,8 @@ class ConsoleFrontEnd final : public FrontEnd {
   /// From a terminal a line means the question in view. From a pipe lines are answers to the
   /// questions as they come.
   void UseLines() {
-    while (!ended_ && !lines_.empty() && (terminal_in_ || between_ || (query_ && !answered_))) {
+    while (!ended_ && !lines_.empty() &&
+           (terminal_in_ || stopped_ || between_ || (query_ && !answered_))) {
       const std::string line = std::move(lines_.front());
       lines_.pop_front();
       Use(ParseLine(line, query_ ? &*query_ : nullptr));
@@ -269,6 +272,7 @@ class ConsoleFrontEnd final : public FrontEnd {
   std::optional<msg::Query> query_;
   bool answered_ = false;
   bool in_session_ = false;
+  bool stopped_ = false;
   bool between_ = false;  // a session is over and the next was not asked for
   bool eof_ = false;
   bool ended_ = false;

@@ -50,8 +50,10 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   Line(Service& service, std::string device)
       : service_(service),
         device_(std::move(device)),
-        dialogue_({.user = service.config_.user, .device = device_}, service.clock_,
-                  service.steady_, NewUuid, *this) {}
+        dialogue_({.user = service.config_.user,
+                   .device = device_,
+                   .listen_us = service.config_.listen_us},
+                  service.clock_, service.steady_, NewUuid, *this) {}
 
   Status Create(FrontEndFactory& factory) {
     auto made = factory.Create({.device = device_,
@@ -252,7 +254,9 @@ std::string Service::State() const {
 }
 
 void Service::StopWhenAllFinished() {
-  if (std::ranges::all_of(lines_, [](auto& line) { return line->Done(); })) loop_.Stop();
+  const auto done = [](const auto& line) { return line->Done(); };
+  const auto over = [&](const auto& line) { return done(line) || line->front_end().Endless(); };
+  if (std::ranges::all_of(lines_, over) && std::ranges::any_of(lines_, done)) loop_.Stop();
 }
 
 }  // namespace beckon::ui_bridge

@@ -17,6 +17,7 @@ struct ServiceConfig {
   std::string user;
   std::string device;  // of a single front end; several are called DEVICE.NAME
   int exit_after_sessions = 0;
+  Utime listen_us = DialogueConfig{}.listen_us;
 };
 
 /// `$USER`, with what user names may not hold replaced by '_'; "user" where there is none.

@@ -80,7 +80,7 @@ void LiveSystem::StartUser(const std::string& want) {
     ASSERT_EQ(RunProgram(truth.program, truth.args).code, 0);
   }
   config_.sessions = 1'000'000;
-  Start(tool::UiBridgeSpec(config_, "simulated", want, false), tool::Supervisor::Restart::kAlways);
+  Start(tool::UiBridgeSpec(config_, {"simulated"}, want, false), tool::Supervisor::Restart::kAlways);
 }
 
 bool LiveSystem::RunUntil(const std::function<bool()>& condition, double timeout_s) {

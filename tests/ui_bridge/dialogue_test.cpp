@@ -411,6 +411,32 @@ TEST_F(DialogueTest, NoneOfTheseIsTheLastOptionWhereAnObjectIsAskedAbout) {
   EXPECT_THAT(out_.answers[0].likelihoods, ElementsAre(0, 0, 1));
 }
 
+TEST_F(DialogueTest, OnceStopIsPressedNothingIsAnsweredOrAskedAnyMore) {
+  const auto id = Begin();
+  Ask(1, id);
+  dialogue_.Stop();
+  EXPECT_EQ(out_.withdrawn, 1);
+  dialogue_.Answer(1, {1, 0});
+  dialogue_.Undo();
+  dialogue_.Start();
+  Ask(2, id);
+  Hear(SessionKind::kBegun, id);
+  EXPECT_THAT(out_.answers, IsEmpty());
+  EXPECT_THAT(out_.presented, ElementsAre(1));
+  EXPECT_EQ(out_.Count(SessionKind::kRequestUndo), 0);
+}
+
+TEST_F(DialogueTest, AStopThatWasNotHeardIsNotGivenUpForAnythingElse) {
+  Begin();
+  dialogue_.Stop();
+  dialogue_.Resume();
+  dialogue_.Cancel();
+  Pass(2 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestResume), 0);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestCancel), 0);
+  EXPECT_GE(out_.Count(SessionKind::kRequestStop), 4);
+}
+
 TEST_F(DialogueTest, AnotherUserIsServedOnceTheSessionThatRunsIsCancelled) {
   const auto id = Begin();
   dialogue_.ChangeUser("ben");

@@ -27,8 +27,50 @@ void Redirect(const char* path, int flags, int to) {
   if (fd > STDERR_FILENO) close(fd);
 }
 
+constexpr int kFirstListeningFd = 3;  // of systemd's protocol
+
+/// Arguments and environment for exec, made before the fork.
+struct Image {
+  explicit Image(const ProcessSpec& spec) {
+    argv.push_back(const_cast<char*>(spec.program.c_str()));
+    for (const auto& arg : spec.args) argv.push_back(const_cast<char*>(arg.c_str()));
+    argv.push_back(nullptr);
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      if (std::strncmp(*variable, "LISTEN_", 7) != 0) env.push_back(*variable);
+    }
+    if (spec.listening_fd >= 0) {
+      env.push_back(listen_fds.data());
+      env.push_back(listen_pid.data());
+    }
+    env.push_back(nullptr);
+  }
+
+  /// In the child: digits by hand, nothing may be allocated there.
+  void WriteOwnPid() {
+    auto pid = getpid();
+    for (size_t i = listen_pid.size(); listen_pid[i - 1] != '='; --i, pid /= 10)
+      listen_pid[i - 1] = static_cast<char>('0' + pid % 10);
+  }
+
+  std::string listen_fds = "LISTEN_FDS=1";
+  std::string listen_pid = "LISTEN_PID=0000000000";
+  std::vector<char*> argv;
+  std::vector<char*> env;
+};
+
+/// Moves the socket to where the child looks for it; `report` may have to make room.
+int PassSocket(int socket, int report) {
+  if (report == kFirstListeningFd) report = fcntl(report, F_DUPFD_CLOEXEC, kFirstListeningFd + 1);
+  if (socket == kFirstListeningFd) {
+    fcntl(socket, F_SETFD, 0);
+  } else {
+    dup2(socket, kFirstListeningFd);
+  }
+  return report;
+}
+
 /// In the child, between fork and exec: system calls only. Tells `report` the error and ends.
-[[noreturn]] void Become(const ProcessSpec& spec, char* const* argv, pid_t parent, int report) {
+[[noreturn]] void Become(const ProcessSpec& spec, Image& image, pid_t parent, int report) {
   if (!spec.terminal) {
     setpgid(0, 0);
     Redirect(spec.stdin_file.empty() ? "/dev/null" : spec.stdin_file.c_str(), O_RDONLY,
@@ -43,7 +85,11 @@ void Redirect(const char* path, int flags, int to) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   for (const int s : {SIGINT, SIGTERM, SIGPIPE, SIGHUP}) signal(s, SIG_DFL);
-  execvp(argv[0], argv);
+  if (spec.listening_fd >= 0) {
+    report = PassSocket(spec.listening_fd, report);
+    image.WriteOwnPid();
+  }
+  execvpe(image.argv[0], image.argv.data(), image.env.data());
   const int error = errno;
   [[maybe_unused]] const auto told = write(report, &error, sizeof error);
   _exit(127);
@@ -63,15 +109,13 @@ std::string Exit::Text() const {
 }
 
 Result<ChildProcess> ChildProcess::Start(const ProcessSpec& spec) {
-  std::vector<char*> argv{const_cast<char*>(spec.program.c_str())};
-  for (const auto& arg : spec.args) argv.push_back(const_cast<char*>(arg.c_str()));
-  argv.push_back(nullptr);
+  Image image(spec);
   std::array<int, 2> report;
   if (pipe2(report.data(), O_CLOEXEC) != 0)
     return Error{spec.name + ": no pipe: " + std::strerror(errno)};
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid == 0) Become(spec, argv.data(), parent, report[1]);
+  if (pid == 0) Become(spec, image, parent, report[1]);
   close(report[1]);
   int error = pid < 0 ? errno : 0;
   if (pid > 0 && read(report[0], &error, sizeof error) > 0) waitpid(pid, nullptr, 0);

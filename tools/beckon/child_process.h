@@ -18,6 +18,7 @@ struct ProcessSpec {
   std::string log_file;    // standard output and error are appended to it; empty = /dev/null
   bool terminal = false;   // has standard input, output and error of this process instead
   std::string stdin_file;  // else standard input is this file or FIFO; empty = /dev/null
+  int listening_fd = -1;   // a socket that it gets by systemd's protocol (LISTEN_FDS)
 };
 
 /// How a process ended.

@@ -33,14 +33,15 @@ void AddDemo(CLI::App& app, DemoOptions& o) {
                    "without end else)")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  demo->add_option("--front-end", o.front_end,
-                   "console or simulated (default: console on a terminal)")
-      ->check(CLI::IsMember({"console", "simulated"}))
+  demo->add_option("--front-end", o.front_ends,
+                   "How you are asked, e.g. web or switch; may be given several times (default: "
+                   "console and web on a terminal; beckon-ui-bridge --help lists all)")
       ->type_name("NAME");
   demo->add_flag("--headless", o.headless, "No person: the simulated front end answers");
   demo->add_option("--db", o.db, "What is learnt (default: a temporary file)")->type_name("FILE");
-  demo->add_option("--port", o.port, "Of the page, which is not part of this version")
+  demo->add_option("--port", o.port, "Of the page, on this machine (default: 8765, or a free one)")
       ->check(CLI::Range(1, 65535));
+  demo->add_flag("--no-browser", o.no_browser, "Say where the page is, but do not open it");
   demo->add_option("--record", o.record, "Log all messages with lcm-logger")->type_name("LOG");
   demo->add_option("--picture", o.picture,
                    "Draw what was seen, and the first conversation, to a .png or .jpg")

@@ -1,8 +1,6 @@
 #include "tools/beckon/demo.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -13,8 +11,10 @@
 #include "services/base/run_loop.h"
 #include "tools/beckon/bus_watch.h"
 #include "tools/beckon/catalogue.h"
+#include "tools/beckon/demo_options.h"
 #include "tools/beckon/demo_picture.h"
 #include "tools/beckon/fleet.h"
+#include "tools/beckon/page_socket.h"
 #include "tools/beckon/private_bus.h"
 #include "tools/beckon/run_folder.h"
 #include "tools/beckon/scene_check.h"
@@ -70,7 +70,7 @@ class Demo {
   }
 
  private:
-  bool simulated() const { return options_.front_end == "simulated"; }
+  bool simulated() const { return HasFrontEnd(options_, "simulated"); }
 
   void Greet() const {
     const std::string what =
@@ -104,7 +104,7 @@ class Demo {
       if (auto known = FindOutWhatToWant(); !known) return known;
     }
     if (auto started = supervisor_.Start(CaptureSpec(fleet_)); !started) return started;
-    return supervisor_.Start(UiBridgeSpec(fleet_, options_.front_end, want_ ? want_->Text() : "",
+    return supervisor_.Start(UiBridgeSpec(fleet_, options_.front_ends, want_ ? want_->Text() : "",
                                           /*terminal=*/!simulated()),
                              Supervisor::Restart::kOnFailure);
   }
@@ -173,7 +173,7 @@ class Demo {
 
   void OnEnd(const SessionRecord& record) {
     story_.OnEnd(record);
-    if (simulated() || options_.headless) {
+    if (simulated() || !OnTerminal()) {
       std::printf("%s\n", ReportLine(record, want_ ? &*want_ : nullptr, truth_).c_str());
       std::fflush(stdout);
     }
@@ -237,31 +237,9 @@ class Demo {
   std::optional<Error> bad_input_;
 };
 
-/// Fills in what was left open and refuses what cannot be.
-Status Complete(DemoOptions& options, const Catalogue& catalogue) {
-  namespace fs = std::filesystem;
-  const bool terminal = isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
-  if (!terminal && options.front_end.empty()) options.headless = true;
-  if (options.front_end.empty()) options.front_end = options.headless ? "simulated" : "console";
-  if (options.headless && options.front_end != "simulated") {
-    return Error{"--headless answers by the simulated front end; --front-end " + options.front_end +
-                 " needs a person"};
-  }
-  if (options.sessions == 0 && options.front_end == "simulated") options.sessions = 1;
-  if (!options.want.empty()) {
-    if (auto want = catalogue.ParseWant(options.want); !want) return want.error();
-  }
-  if (!options.input.empty() && !fs::exists(options.input)) {
-    return Error{"--input " + options.input + ": there is no such file or folder"};
-  }
-  if (!options.picture.empty()) {
-    if (auto right = CheckPicturePath(options.picture); !right) return right;
-  }
-  if (!options.record.empty() && fs::exists(options.record)) {
-    return Error{"--record " + options.record +
-                 ": exists already; choose another name or remove it"};
-  }
-  return {};
+void ShowAddress(const PageSocket& page, const DemoOptions& options) {
+  std::fprintf(OnTerminal() ? stdout : stderr, "The page: %s\n", page.Address().c_str());
+  if (OnTerminal() && !options.no_browser) OpenInBrowser(page.Address());
 }
 
 }  // namespace
@@ -270,11 +248,13 @@ Result<int> RunDemo(const DemoOptions& given) {
   auto catalogue = Catalogue::Load(SharedFile("affordances.toml"));
   if (!catalogue) return catalogue.error();
   DemoOptions options = given;
-  if (auto complete = Complete(options, *catalogue); !complete) return complete.error();
-  if (options.port != 0) {
-    spdlog::warn(
-        "--port {}: the page is not part of this version; questions are asked by the {} front end",
-        options.port, options.front_end);
+  if (auto complete = CompleteOptions(options, *catalogue); !complete) return complete.error();
+  PageSocket page;
+  if (HasFrontEnd(options, "web")) {
+    auto listening = PageSocket::Listen(options.port);
+    if (!listening) return listening.error();
+    page = *std::move(listening);
+    ShowAddress(page, options);
   }
   auto folder = RunFolder::Make(options.logs, "beckon-demo");
   if (!folder) return folder.error();
@@ -297,6 +277,7 @@ Result<int> RunDemo(const DemoOptions& given) {
   fleet.sessions = options.sessions;
   fleet.think_s = options.think_s;
   fleet.flip = options.flip;
+  fleet.page_socket = page.fd();
 
   Demo demo(options, fleet, *std::move(catalogue), loop, **bus);
   auto code = demo.Run();

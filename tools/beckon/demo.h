@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/base/result.h"
 
@@ -12,12 +13,13 @@ struct DemoOptions {
   std::string input;  // file for capture; empty = the embedded scene
   std::string want;   // ACTION:CATEGORY of the simulated user; empty = something the scene offers
   int sessions = 0;   // 0 = one where simulated, else until the user leaves
-  std::string front_end;  // empty = console on a terminal, simulated else
+  std::vector<std::string> front_ends;  // empty = console and web on a terminal, simulated else
   bool headless = false;
-  std::string db;  // empty = a temporary one
-  int port = 0;
-  std::string record;   // log to write; empty = none
-  std::string picture;  // of what was seen and asked, to write; empty = none
+  std::string db;           // empty = a temporary one
+  int port = 0;             // of the page; 0 = 8765, or any where that is taken
+  bool no_browser = false;  // do not open the page in the desktop's browser
+  std::string record;       // log to write; empty = none
+  std::string picture;      // of what was seen and asked, to write; empty = none
   // Of the embedded scene; this one has a carton, a cup and a bottle among its objects.
   int seed = 11;
   std::string policy;

@@ -1,5 +1,6 @@
 #include "tools/beckon/fleet.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -51,12 +52,13 @@ ProcessSpec IntentionSpec(const FleetConfig& config) {
   return Service(config, "intention", "beckon-intention", std::move(args));
 }
 
-ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::string& front_end,
+ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::vector<std::string>& front_ends,
                          const std::string& want, bool terminal) {
-  std::vector<std::string> args{"--front-end", front_end, "--user", config.user};
+  std::vector<std::string> args{"--user", config.user};
+  for (const auto& front_end : front_ends) args.insert(args.end(), {"--front-end", front_end});
   if (config.sessions > 0)
     args.insert(args.end(), {"--exit-after-sessions", std::to_string(config.sessions)});
-  if (front_end == "simulated") {
+  if (std::ranges::find(front_ends, "simulated") != front_ends.end()) {
     args.insert(args.end(),
                 {"--want", want, "--seed", std::to_string(config.seed), "--think",
                  std::to_string(config.think_s), "--flip", std::to_string(config.flip)});
@@ -65,6 +67,7 @@ ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::string& front_end
   }
   auto spec = Service(config, "ui_bridge", "beckon-ui-bridge", std::move(args));
   spec.terminal = terminal;
+  spec.listening_fd = config.page_socket;
   return spec;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/beckon/child_process.h"
 
@@ -17,9 +18,10 @@ struct FleetConfig {
   std::string perception_config;  // file; empty = its defaults
   std::string policy;             // of intention; empty = its default
   std::string user;
-  int sessions = 0;    // 0 = until the user leaves
-  double think_s = 0;  // of the simulated user
-  double flip = 0;     // of the simulated user
+  int sessions = 0;      // 0 = until the user leaves
+  double think_s = 0;    // of the simulated user
+  double flip = 0;       // of the simulated user
+  int page_socket = -1;  // on which ui_bridge serves the page; -1 = none
 
   std::string TruthFile() const { return run_dir + "/truth.json"; }
   /// Beside the database.
@@ -33,9 +35,8 @@ ProcessSpec TruthSpec(const FleetConfig& config);
 ProcessSpec PerceptionSpec(const FleetConfig& config);
 ProcessSpec PoseSpec(const FleetConfig& config);
 ProcessSpec IntentionSpec(const FleetConfig& config);
-/// `want` is for the simulated front end alone; `terminal`: the front end has this process's
-/// terminal.
-ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::string& front_end,
+/// `want` is for the simulated front end alone; `terminal`: it has this process's terminal.
+ProcessSpec UiBridgeSpec(const FleetConfig& config, const std::vector<std::string>& front_ends,
                          const std::string& want, bool terminal);
 /// Stock lcm-logger, writing all of the bus to `log`.
 ProcessSpec LoggerSpec(const FleetConfig& config, const std::string& log);

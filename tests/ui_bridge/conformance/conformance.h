@@ -1,0 +1,109 @@
+// What every front end must do, as tests that run against any of them:
+// `beckon_front_end_conformance` makes a test program of them and of one Hand, which acts in a
+// person's place.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lcmtypes/messages.h"
+#include "services/base/bus.h"
+#include "services/base/run_loop.h"
+
+namespace beckon::ui_bridge::conformance {
+
+/// What a hand acts with; all outlive it. The loop runs while the front end is waited for.
+struct HandSetup {
+  Bus& bus;
+  RunLoop& loop;
+  std::string device;  // of the front end
+};
+
+/// The person, or the device in a person's hand: does what leads to an answer at one front end.
+/// Made before the front end is, so that it can hold open what the front end reads.
+class Hand {
+ public:
+  virtual ~Hand() = default;
+
+  /// As in --front-end NAME.
+  virtual std::string front_end() const = 0;
+  /// Its flags, and its section of the configuration file: what makes it quick enough for a test.
+  virtual std::vector<std::string> flags() const { return {}; }
+  virtual std::string config() const { return {}; }
+  /// Longest that it takes from a question, or from a deed of the hand, to what follows.
+  virtual double patience_s() const { return 5; }
+
+  /// Once the front end runs.
+  virtual void Begin(const HandSetup&) {}
+  /// Asks for a session, where the front end does not do so by itself.
+  virtual void Start() {}
+  /// Answers the question that stands, if it can by this option. Returns the option that it went
+  /// for: a simulated user has a will of its own.
+  virtual size_t Choose(const msg::Query& query, size_t option) = 0;
+  /// Both false where nobody can make this front end stop: where its user is a program.
+  virtual bool Stop() = 0;
+  virtual bool Resume() = 0;
+  /// Takes the last answer back; false where this front end has no way to.
+  virtual bool Undo() { return false; }
+};
+
+using MakeHand = std::unique_ptr<Hand> (*)();
+
+/// The front end of a hand in a real service, on an in-process bus, with a scripted intention.
+class FrontEndConformance : public ::testing::TestWithParam<MakeHand> {
+ protected:
+  FrontEndConformance();
+  ~FrontEndConformance() override;
+  void SetUp() override;
+
+  /// Runs the loop until `condition`; false after the hand's patience.
+  bool Await(const std::function<bool()>& condition);
+  /// Runs the loop for a while, for what must not come.
+  void Let(double seconds);
+
+  /// Hears its request and begins the session that it asked for.
+  void BeginSession();
+  /// A question of this kind; yes and no, or three options where the kind has them.
+  msg::Query Question(msg::QueryKind kind) const;
+  /// Publishes it, and again twice a second until another takes its place.
+  msg::Query Ask(msg::QueryKind kind);
+  /// Runs the loop until an answer to the query came; null where none did.
+  const msg::Answer* AnswerTo(const msg::Query& query);
+  void Announce(msg::SessionKind kind, int questions = 0);
+  int Count(msg::SessionKind request) const;
+  /// The answers in different words: repetitions are left out.
+  std::vector<msg::Answer> DistinctAnswers() const;
+
+  RunLoop loop_;
+  SystemClock clock_;
+  SteadyClock steady_;
+  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<Hand> hand_;
+  struct Program;  // factory and service
+  std::unique_ptr<Program> program_;
+
+  bool silent_ = false;     // the scripted intention is away
+  std::string session_id_;  // that the front end asked for last
+  std::string device_;
+  std::optional<msg::Interface> interface_;
+  std::vector<msg::Session> requests_;
+  std::vector<msg::Answer> answers_;
+  std::optional<msg::Session> announced_;  // repeated once a second
+  std::optional<msg::Query> query_;        // repeated
+  int64_t heard_query_ = 0;                // that the front end was shown
+  int64_t last_query_ = 0;
+};
+
+}  // namespace beckon::ui_bridge::conformance
+
+/// At namespace scope: runs the suite with hands of this class.
+#define BECKON_FRONT_END_CONFORMANCE(HandClass)                                                    \
+  INSTANTIATE_TEST_SUITE_P(                                                                        \
+      HandClass, FrontEndConformance,                                                              \
+      ::testing::Values(+[]() -> std::unique_ptr<Hand> { return std::make_unique<HandClass>(); }), \
+      [](const auto&) { return std::string("FrontEnd"); })
