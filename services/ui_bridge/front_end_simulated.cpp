@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <optional>
+#include <random>
 #include <utility>
 
 #include "services/base/app.h"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr Utime kLookAgain_us = 100'000;
 constexpr int kMaxLooks = 100;       // for scene and truth, before it gives up
+constexpr Utime kRest_us = kSecond;  // from a stop to going on
 constexpr double kVectorSure = 0.9;  // share of the likelihood that a vector gives the option meant
 
 /// What it announces, besides its rate of errors.
@@ -33,12 +35,13 @@ struct SimulatedConfig {
   std::string truth_file;
   int sessions = 1;
   double think_s = 0;
+  double stop = 0;  // 0..1, chance that it presses stop instead of answering
 };
 
 class SimulatedFrontEnd final : public FrontEnd {
  public:
   SimulatedFrontEnd(SimulatedConfig config, const FrontEndSetup& setup)
-      : config_(std::move(config)), setup_(setup), user_(config_.user) {}
+      : config_(std::move(config)), setup_(setup), user_(config_.user), stops_(config_.user.seed) {}
   ~SimulatedFrontEnd() override { CancelTimer(); }
 
   msg::Interface Announce() const override {
@@ -66,6 +69,13 @@ class SimulatedFrontEnd final : public FrontEnd {
 
   void ShowSession(const msg::Session& event) override {
     if (event.kind == msg::SessionKind::kBegun) in_session_ = true;
+    if (event.kind == msg::SessionKind::kStopped && std::exchange(stopped_it_, false)) {
+      CancelTimer();
+      timer_ = setup_.loop.After(kRest_us, [this] {
+        timer_.reset();
+        setup_.sink.Request(msg::SessionKind::kRequestResume);
+      });
+    }
     const bool over = event.kind == msg::SessionKind::kConfirmed ||
                       event.kind == msg::SessionKind::kAbandoned ||
                       event.kind == msg::SessionKind::kIdle;
@@ -112,6 +122,10 @@ class SimulatedFrontEnd final : public FrontEnd {
     if (!query_) return;
     in_session_ = true;
     if (!LookAtTruth()) return;
+    if (std::bernoulli_distribution(config_.stop)(stops_)) {
+      stopped_it_ = true;
+      return setup_.sink.Request(msg::SessionKind::kRequestStop);
+    }
     const Response response = user_.Respond(*query_);
     if (const auto* choice = std::get_if<Choose>(&response)) {
       setup_.sink.Answer(query_->id, Likelihoods(choice->option, query_->options.size()));
@@ -152,6 +166,8 @@ class SimulatedFrontEnd final : public FrontEnd {
   const SimulatedConfig config_;
   const FrontEndSetup setup_;
   SimulatedUser user_;
+  std::mt19937_64 stops_;
+  bool stopped_it_ = false;  // by this user: nobody else's stop is taken back
   bool truth_read_ = false;
   std::optional<msg::Query> query_;
   std::optional<RunLoop::TimerId> timer_;
@@ -196,6 +212,10 @@ class SimulatedFactory final : public FrontEndFactory {
     group->add_option("--seconds-per-option", interface.seconds_per_option, "As it announces")
         ->check(Within(0.0, 3600.0))
         ->capture_default_str();
+    group
+        ->add_option("--stop", config_.stop,
+                     "Chance that it stops everything instead of answering, and goes on after 1 s")
+        ->check(Within(0.0, 1.0));
     group->add_option("--think", config_.think_s, "Seconds before each answer")
         ->check(Within(0.0, 3600.0));
   }

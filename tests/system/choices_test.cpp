@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 
 #include "services/intention/service.h"
 #include "services/ui_bridge/service.h"
@@ -24,6 +25,55 @@ msg::SceneObject Object(int id, const std::string& category, double x, double y)
   return object;
 }
 
+/// Sees what every front end is shown. One of them may press stop at a question, and go on.
+class Watcher final : public ui_bridge::FrontEnd {
+ public:
+  struct Seen {
+    std::vector<int64_t> queries;
+    std::vector<msg::SessionKind> events;
+    std::vector<std::string> tasks;
+  };
+  static inline std::map<std::string, Seen> seen;  // by device
+  static inline std::string stopper;               // device that presses stop at the first question
+
+  explicit Watcher(const ui_bridge::FrontEndSetup& setup) : setup_(setup) {}
+  msg::Interface Announce() const override { return {}; }
+  void Begin() override {}
+  void Present(const msg::Query& query) override {
+    seen[setup_.device].queries.push_back(query.id);
+    if (stopper != setup_.device) return;
+    stopper.clear();
+    resumes_ = true;
+    setup_.sink.Request(msg::SessionKind::kRequestStop);
+  }
+  void Withdraw() override {}
+  void ShowSession(const msg::Session& event) override {
+    seen[setup_.device].events.push_back(event.kind);
+    if (event.kind == msg::SessionKind::kStopped && resumes_)
+      setup_.sink.Request(msg::SessionKind::kRequestResume);
+  }
+  void ShowNotice(const std::string&) override {}
+  void ShowTask(const msg::Task& task) override {
+    seen[setup_.device].tasks.push_back(task.action);
+  }
+  bool Endless() const override { return true; }
+  std::string State() const override { return "watches"; }
+
+ private:
+  const ui_bridge::FrontEndSetup setup_;
+  bool resumes_ = false;
+};
+
+class WatcherFactory final : public ui_bridge::FrontEndFactory {
+ public:
+  std::string name() const override { return "watcher"; }
+  std::string summary() const override { return "watches"; }
+  Result<std::unique_ptr<ui_bridge::FrontEnd>> Create(
+      const ui_bridge::FrontEndSetup& setup) override {
+    return std::unique_ptr<ui_bridge::FrontEnd>(std::make_unique<Watcher>(setup));
+  }
+};
+
 /// Perception and a robot around the two services.
 class ChoicesTest : public ::testing::Test {
  protected:
@@ -41,7 +91,9 @@ class ChoicesTest : public ::testing::Test {
       if (answers_.empty() || answers_.back().query_id != answer.query_id)
         answers_.push_back(answer);
     });
-    bus_->Subscribe<msg::Interface>([this](const msg::Interface& i) { interface_ = i; });
+    bus_->Subscribe<msg::Interface>([this](const msg::Interface& i) {
+      if (i.device == ui_bridge::DefaultDevice("simulated")) interface_ = i;
+    });
     bus_->Subscribe<msg::Task>([this](const msg::Task& task) {
       if (tasks_.empty() || tasks_.back().task_id != task.task_id) tasks_.push_back(task);
       msg::TaskStatus status;
@@ -90,9 +142,17 @@ class ChoicesTest : public ::testing::Test {
     ui_bridge::Service bridge({.user = "ann", .device = "", .exit_after_sessions = sessions}, *bus_,
                               loop_, clock_, steady_);
     ASSERT_TRUE(bridge.Add(**simulated));
+    WatcherFactory watcher;
+    ASSERT_TRUE(bridge.Add(watcher));
+    // As on another machine.
+    ui_bridge::Service elsewhere({.user = "ann", .device = "elsewhere", .exit_after_sessions = 0},
+                                 *bus_, loop_, clock_, steady_);
+    ASSERT_TRUE(elsewhere.Add(watcher));
+    Watcher::seen.clear();
     bridge.Begin();
+    elsewhere.Begin();
     loop_.Run();
-    ASSERT_EQ(tasks_.size(), static_cast<size_t>(sessions));
+    ASSERT_EQ(tasks_.size(), static_cast<size_t>(sessions - stopped_sessions_));
     for (const msg::Task& task : tasks_) {
       EXPECT_EQ(task.action + ":" + task.object.category, want);
       EXPECT_EQ(task.object.instance, 1);
@@ -116,11 +176,44 @@ class ChoicesTest : public ::testing::Test {
   std::unique_ptr<Bus> bus_ = std::move(*Bus::Open("memq://"));
   intention::TemporaryFolder folder_;
   int64_t scenes_ = 0;
+  int stopped_sessions_ = 0;  // that somebody stops
   msg::Interface interface_;
   std::vector<msg::Query> queries_;
   std::vector<msg::Answer> answers_;
   std::vector<msg::Task> tasks_;
 };
+
+TEST_F(ChoicesTest, SeveralFrontEndsHaveOneTruth) {
+  Converse("Open:Carton", 1, {});
+  std::vector<int64_t> asked;
+  for (const auto& query : queries_) asked.push_back(query.id);
+  ASSERT_EQ(Watcher::seen.size(), 2u);
+  for (const auto& [device, seen] : Watcher::seen) {
+    EXPECT_EQ(seen.queries, asked) << device;
+    EXPECT_EQ(seen.events.back(), msg::SessionKind::kConfirmed) << device;
+    EXPECT_EQ(seen.tasks, std::vector<std::string>{"Open"}) << device;
+  }
+  for (const auto& answer : answers_)
+    EXPECT_EQ(answer.device, ui_bridge::DefaultDevice("simulated"));
+}
+
+TEST_F(ChoicesTest, AStopPressedAnywhereIsShownEverywhereAndEndsOnlyByAResume) {
+  Watcher::stopper = "elsewhere";
+  stopped_sessions_ = 1;
+  Converse("Open:Carton", 2, {"--think", "0.3"});
+  ASSERT_EQ(Watcher::seen.size(), 2u);
+  for (const auto& [device, seen] : Watcher::seen) {
+    EXPECT_EQ(std::ranges::count(seen.events, msg::SessionKind::kStopped), 1) << device;
+    EXPECT_EQ(seen.events.back(), msg::SessionKind::kConfirmed) << device;
+  }
+}
+
+TEST_F(ChoicesTest, ASimulatedUserWhoStopsGoesOnAfterwards) {
+  stopped_sessions_ = 1;
+  // Of this seed's chances one comes true.
+  Converse("Open:Carton", 2, {"--stop", "0.4", "--seed", "4"});
+  EXPECT_EQ(std::ranges::count(Watcher::seen["elsewhere"].events, msg::SessionKind::kStopped), 1);
+}
 
 TEST_F(ChoicesTest, AYesNoUserIsNeverOfferedAChoice) {
   Converse("Drink:Mug", 1, {});

@@ -1,13 +1,13 @@
 // Types at the console, through a pipe.
+#pragma once
+
 #include <unistd.h>
 
 #include <array>
 
-#include "tests/ui_bridge/conformance/conformance.h"
+#include "tests/ui_bridge/conformance/hand.h"
 
 namespace beckon::ui_bridge::conformance {
-namespace {
-
 class ConsoleHand final : public Hand {
  public:
   ConsoleHand() {
@@ -41,7 +41,4 @@ class ConsoleHand final : public Hand {
   int keyboard_ = -1;
 };
 
-BECKON_FRONT_END_CONFORMANCE(ConsoleHand);
-
-}  // namespace
 }  // namespace beckon::ui_bridge::conformance

@@ -1,9 +1,9 @@
 // The simulated user needs no hand: it answers what it wants.
-#include "tests/ui_bridge/conformance/conformance.h"
+#pragma once
+
+#include "tests/ui_bridge/conformance/hand.h"
 
 namespace beckon::ui_bridge::conformance {
-namespace {
-
 class SimulatedHand final : public Hand {
  public:
   std::string front_end() const override { return "simulated"; }
@@ -16,7 +16,4 @@ class SimulatedHand final : public Hand {
   bool Resume() override { return false; }
 };
 
-BECKON_FRONT_END_CONFORMANCE(SimulatedHand);
-
-}  // namespace
 }  // namespace beckon::ui_bridge::conformance

@@ -1,0 +1,23 @@
+// The hands for our own front ends, by name; one front end may be had in several ways.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/ui_bridge/conformance/console_hand.h"
+#include "tests/ui_bridge/conformance/hand.h"
+
+namespace beckon::ui_bridge::conformance {
+
+using NamedHand = std::pair<std::string, std::unique_ptr<Hand> (*)()>;
+
+template <typename HandClass>
+std::unique_ptr<Hand> Make() {
+  return std::make_unique<HandClass>();
+}
+
+inline std::vector<NamedHand> AllHands() { return {{"console", Make<ConsoleHand>}}; }
+
+}  // namespace beckon::ui_bridge::conformance
