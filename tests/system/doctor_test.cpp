@@ -36,6 +36,18 @@ TEST(Doctor, ComparesWhatIsRecognisedWithWhatCanBeWanted) {
   EXPECT_THAT(both.remedy, HasSubstr("train"));
 }
 
+TEST(Doctor, FailsNoMachineForAFrontEndThatItsUserDoesNotNeed) {
+  std::vector<std::string> whats;
+  for (const auto& finding : CheckFrontEnds()) {
+    whats.push_back(finding.what);
+    EXPECT_NE(finding.grade, Grade::kFail) << finding.what;
+    EXPECT_EQ(finding.remedy.empty(), finding.grade == Grade::kOk) << finding.what;
+  }
+  EXPECT_THAT(whats, ::testing::ElementsAre("voice", "speech recognition", "switches", "page"));
+  EXPECT_TRUE(IsInPath("sh"));
+  EXPECT_FALSE(IsInPath("no-such-program"));
+}
+
 TEST(Doctor, FailsOnlyWhereSomethingFailed) {
   std::vector<Finding> findings{{Grade::kOk, "a", "fine", ""},
                                 {Grade::kWarn, "b", "so so", "do this"}};

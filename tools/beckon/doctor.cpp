@@ -43,15 +43,7 @@ Finding CheckLcm() {
                               std::to_string(LCM_MINOR_VERSION) + "." +
                               std::to_string(LCM_MICRO_VERSION);
   for (const char* tool : {"lcm-logger", "lcm-logplayer"}) {
-    const char* path = std::getenv("PATH");
-    std::string folders = path != nullptr ? path : "/usr/bin";
-    bool found = false;
-    for (size_t at = 0; at <= folders.size() && !found;) {
-      const size_t end = std::min(folders.find(':', at), folders.size());
-      found = access((folders.substr(at, end - at) + "/" + tool).c_str(), X_OK) == 0;
-      at = end + 1;
-    }
-    if (!found) {
+    if (!IsInPath(tool)) {
       return Warn("LCM", version + ", but no " + tool + ": nothing can be recorded or replayed",
                   "apt-get install liblcm-bin");
     }
@@ -183,9 +175,10 @@ Finding CheckCategories(const std::string& bin_dir) {
   auto catalogue = Catalogue::Load(SharedFile("affordances.toml"));
   if (!catalogue || !fs::exists(program) || !fs::exists(SharedFile("categories.model")))
     return Ok(what, "not compared: model, affordances or perception are not here");
-  const auto known = Ask(program, {"--model", SharedFile("categories.model"), "--list-categories"});
+  auto known = Ask(program, {"--model", SharedFile("categories.model"), "--list-categories"});
   if (!known)
     return Fail(what, known.error().message, "restore the model that ships, or train one anew");
+  std::erase(*known, msg::kUnknownCategory);  // what can be done with it stands in [unknown]
   return CompareCategories(*known, catalogue->categories());
 }
 
@@ -276,6 +269,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
                                 CheckPrivateNetwork(),
                                 CheckCamera()};
   for (auto& finding : CheckServices(options.bin_dir)) findings.push_back(std::move(finding));
+  for (auto& finding : CheckFrontEnds()) findings.push_back(std::move(finding));
   findings.push_back(CheckModel());
   findings.push_back(CheckAffordances());
   findings.push_back(CheckCategories(options.bin_dir));

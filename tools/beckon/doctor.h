@@ -32,6 +32,12 @@ Finding CompareCategories(const std::vector<std::string>& of_model,
                           const std::vector<std::string>& of_affordances);
 
 /// A line for each, and how many were bad.
+/// Whether a program of this name is in $PATH.
+bool IsInPath(const std::string& program);
+
+/// What the front ends need: none of it fails, a machine needs only what its user answers by.
+std::vector<Finding> CheckFrontEnds();
+
 std::string Render(const std::vector<Finding>& findings);
 /// 1 where anything failed.
 int ExitCode(const std::vector<Finding>& findings);
