@@ -292,7 +292,7 @@ TEST_F(SystemTest, TheConsoleAnswersThroughAPipeAndEndsWithIt) {
   system.StartServices();
   const std::string script = system.run_dir() + "/answers";
   std::ofstream(script) << "2\nmaybe\n";  // one choice and a word: too little for a task
-  auto spec = tool::UiBridgeSpec(system.config(), "console", "", false);
+  auto spec = tool::UiBridgeSpec(system.config(), {"console"}, "", false);
   spec.stdin_file = script;
   system.Start(spec, tool::Supervisor::Restart::kNever);
   ASSERT_TRUE(system.RunUntil([&] { return !system.deaths().empty(); })) << system.Logs();
