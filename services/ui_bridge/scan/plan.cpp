@@ -186,11 +186,13 @@ std::optional<Utime> TimeTo(const Plan& plan, const Config& config, const IsIt& 
     const auto [level, depth, begun] = stack.back();
     stack.pop_back();
     const auto& entries = plan.levels[static_cast<size_t>(level)].entries;
+    const bool reads = level == 0 && config.method == Method::kAutomatic;
     for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
       const Entry& entry = entries[static_cast<size_t>(k)];
-      if (is_it(entry)) return begun + pace.ChooseLast_us(k, depth);
+      const Utime at = begun + (reads && k > 0 ? plan.read_us : 0);
+      if (is_it(entry)) return at + pace.ChooseLast_us(k, depth);
       if (entry.kind == Entry::Kind::kGroup) {
-        stack.push_back({entry.level, depth + 1, begun + pace.Choose_us(k, depth)});
+        stack.push_back({entry.level, depth + 1, at + pace.Choose_us(k, depth)});
       }
     }
   }
@@ -230,10 +232,17 @@ const char* Name(Control control) {
 Plan MakePlan(const Config& config, const Page& page) {
   if (page.n_options <= 0 && page.controls.empty()) return {};
   Planner planner(config, page);
-  if (page.n_options <= 0 || config.grouping == Grouping::kLinear) return planner.Linear();
-  if (config.grouping == Grouping::kBinary) return planner.Binary();
-  return config.columns > 0 ? planner.Rows(static_cast<size_t>(config.columns))
-                            : planner.QuickestRows();
+  Plan plan;
+  if (page.n_options <= 0 || config.grouping == Grouping::kLinear) {
+    plan = planner.Linear();
+  } else if (config.grouping == Grouping::kBinary) {
+    plan = planner.Binary();
+  } else {
+    plan = config.columns > 0 ? planner.Rows(static_cast<size_t>(config.columns))
+                              : planner.QuickestRows();
+  }
+  plan.read_us = page.read_us;
+  return plan;
 }
 
 std::vector<int> OptionsOf(const Plan& plan, const Entry& entry) {

@@ -27,6 +27,8 @@ struct Page {
   int n_options = 0;                  // 0 .. 64
   std::vector<double> probabilities;  // one an option, any scale; else all are taken as equal
   bool none_last = false;             // the last option says "none of these": it stays the last
+  Utime read_us = 0;                  // Method::kAutomatic: the page's first entry is lit longer
+                                      // by this, to read or hear the question
   std::vector<Control> controls;      // after the options, in this order; one group where several
 };
 
@@ -46,6 +48,7 @@ struct Level {
 /// levels[0] is scanned first; empty where there is nothing to choose.
 struct Plan {
   std::vector<Level> levels;
+  Utime read_us = 0;  // of the page
   bool empty() const { return levels.empty(); }
 };
 

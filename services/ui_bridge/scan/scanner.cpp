@@ -86,6 +86,7 @@ View Scanner::view() const {
   view.group = entry.kind == Entry::Kind::kGroup;
   view.entry = entry_;
   view.dwell_us = RestOf(entry_).value_or(0);
+  if (first_ && config_.method == Method::kAutomatic) view.dwell_us += plan_.read_us;
   return view;
 }
 
@@ -110,6 +111,7 @@ void Scanner::Activate(Utime now) {
   }
   EnterLevel(now, 0);
   first_ = true;
+  if (config_.method == Method::kAutomatic && rest_.left) *rest_.left += plan_.read_us;
 }
 
 void Scanner::EnterLevel(Utime now, int level) {

@@ -270,6 +270,7 @@ TEST_P(ExpectedTime, IsExactlyWhatTheMachineTakesForEveryOption) {
     Page page = Options(1 + static_cast<int>(engine() % 12));
     for (int i = 0; i < page.n_options; ++i) page.probabilities.push_back(1 + engine() % 50);
     page.none_last = engine() % 2 == 0;
+    page.read_us = static_cast<Utime>(engine() % 4000) * kMs;
     if (engine() % 2 == 0) page.controls = {Control::kUndo, Control::kPause, Control::kStop};
     const Plan plan = MakePlan(config, page);
     double expected = 0;
