@@ -225,6 +225,10 @@ const char* Name(Control control) {
       return "stay";
     case Control::kStart:
       return "start";
+    case Control::kAccept:
+      return "accept";
+    case Control::kKeep:
+      return "keep";
   }
   return "";
 }
@@ -281,6 +285,32 @@ double ExpectedSeconds(const Plan& plan, const Config& config, const Page& page)
     if (time) seconds += weights[static_cast<size_t>(i)] * static_cast<double>(*time) / kSecond;
   }
   return seconds;
+}
+
+ScanSeconds FitSeconds(const Config& config, int options) {
+  constexpr double kLeastSeconds = 0.001;
+  Page page;
+  page.n_options = options;
+  const Plan plan = MakePlan(config, page);
+  std::vector<double> seconds;
+  for (int i = 0; i < options; ++i) {
+    seconds.push_back(static_cast<double>(TimeToOption(plan, config, i).value_or(0)) / kSecond);
+  }
+  std::ranges::sort(seconds);
+  const double n = options;
+  const double mean_place = (n + 1) / 2;
+  const double mean = std::accumulate(seconds.begin(), seconds.end(), 0.0) / n;
+  double covariance = 0;
+  double variance = 0;
+  for (int i = 0; i < options; ++i) {
+    const double place = i + 1 - mean_place;
+    covariance += place * (seconds[static_cast<size_t>(i)] - mean);
+    variance += place * place;
+  }
+  const double slope = variance > 0 ? std::max(0.0, covariance / variance) : 0;
+  const double at_none = mean - slope * mean_place;
+  if (at_none >= kLeastSeconds) return {at_none, slope};
+  return {kLeastSeconds, std::max(0.0, (mean - kLeastSeconds) / mean_place)};
 }
 
 Utime StopWithin_us(const Plan& plan, const Config& config) {

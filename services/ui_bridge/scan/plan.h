@@ -16,9 +16,10 @@
 namespace beckon::ui_bridge::scan {
 
 /// What can be chosen besides a question's options.
-enum class Control { kUndo, kNone, kPause, kStop, kResume, kStay, kStart };
+enum class Control { kUndo, kNone, kPause, kStop, kResume, kStay, kStart, kAccept, kKeep };
 
-/// As in msg::Highlight: "undo", "none", "pause", "stop", "resume", "stay", "start".
+/// As in msg::Highlight: "undo", "none", "pause", "stop", "resume", "stay", "start", and
+/// "accept", "keep" of what is suggested.
 const char* Name(Control control);
 
 /// What is to be chosen from.
@@ -67,6 +68,17 @@ std::optional<Utime> TimeToControl(const Plan& plan, const Config& config, Contr
 
 /// Mean of TimeToOption over the page's probabilities, s. 0 for a page without options.
 double ExpectedSeconds(const Plan& plan, const Config& config, const Page& page);
+
+/// What interface_t of KIND_SCAN says: an answer at place k (from 0) takes about per_question +
+/// (k + 1) * per_option.
+struct ScanSeconds {
+  double per_question = 0;  // > 0
+  double per_option = 0;    // >= 0
+};
+
+/// The line of least squares through the exact times of `options` equally likely ones, quickest
+/// first; the mean over them is exact. `options` >= 1.
+ScanSeconds FitSeconds(const Config& config, int options);
 
 /// Longest time from the beginning of a press to the stop that it becomes; 0 where holding does not
 /// stop. `stop_hold_us`, and for Method::kInverse one pass before it, where the hold scans.

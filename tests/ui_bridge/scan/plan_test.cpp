@@ -303,6 +303,27 @@ TEST(ExpectedTime, IsNothingForWhatIsNotOnOffer) {
   EXPECT_FALSE(TimeToOption({}, PlainConfig(), 0));
 }
 
+TEST(ScanSeconds, HaveTheMeanOfTheExactTimesAndTheScanTimeAsSlope) {
+  Config config = PlainConfig();
+  config.first_us = 0;
+  config.hold_us = 600 * kMs;
+  const ScanSeconds linear = FitSeconds(config, 6);
+  EXPECT_NEAR(linear.per_option, 1, 1e-9);
+  EXPECT_GT(linear.per_question, 0);
+  std::mt19937 engine(2);
+  for (int round = 0; round < 300; ++round) {
+    Config any = RandomConfig(engine);
+    any.method = static_cast<Method>(engine() % 3);
+    any.grouping = static_cast<Grouping>(engine() % 3);
+    const int n = 2 + static_cast<int>(engine() % 11);
+    const ScanSeconds fit = FitSeconds(any, n);
+    EXPECT_NEAR(fit.per_question + fit.per_option * (n + 1) / 2,
+                ExpectedSeconds(MakePlan(any, Options(n)), any, Options(n)), 1e-6);
+    EXPECT_GT(fit.per_question, 0);
+    EXPECT_GE(fit.per_option, 0);
+  }
+}
+
 TEST(ExpectedTime, OfSixteenEqualOptionsIsLeastInGroups) {
   Config config = PlainConfig();
   const Page page = Options(16);
