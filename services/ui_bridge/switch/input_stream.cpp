@@ -53,10 +53,18 @@ std::vector<InputEvent> InputStream::Feed(std::span<const uint8_t> bytes) {
   std::vector<InputEvent> events;
   size_t at = 0;
   while (rest_.size() - at >= kEventBytes) {
-    if (IsPlausible(ReadEvent(rest_.data() + at))) {
-      Take(events, rest_.data() + at);
+    const uint8_t* here = rest_.data() + at;
+    const bool plausible = IsPlausible(ReadEvent(here));
+    if (plausible && !in_step_) {
+      // After bytes that were no event one that looks like one may be none: two in a row are.
+      if (rest_.size() - at < 2 * kEventBytes) break;
+      in_step_ = IsPlausible(ReadEvent(here + kEventBytes));
+    }
+    if (plausible && in_step_) {
+      Take(events, here);
       at += kEventBytes;
     } else {
+      in_step_ = false;
       ++garbage_;
       ++at;
     }
@@ -87,6 +95,7 @@ void InputStream::Take(std::vector<InputEvent>& events, const uint8_t* bytes) {
 void InputStream::Reset() {
   rest_.clear();
   dropping_ = false;
+  in_step_ = true;
 }
 
 }  // namespace beckon::ui_bridge

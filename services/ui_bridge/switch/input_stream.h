@@ -25,7 +25,8 @@ class InputStream {
  public:
   /// What the next bytes say. Reads may end anywhere; the rest of an event is kept. A key's
   /// repetitions (value 2) are no presses. After SYN_DROPPED everything up to the next SYN_REPORT
-  /// is left out. Bytes that are no event are passed over one by one until some are.
+  /// is left out. Bytes that are no event are passed over one by one until two in a
+  /// row are.
   std::vector<InputEvent> Feed(std::span<const uint8_t> bytes);
   /// The stream begins anew: half an event is forgotten.
   void Reset();
@@ -38,6 +39,7 @@ class InputStream {
 
   std::vector<uint8_t> rest_;
   bool dropping_ = false;
+  bool in_step_ = true;  // events begin where they should
   int64_t garbage_ = 0;
 };
 
