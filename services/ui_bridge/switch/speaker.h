@@ -10,7 +10,7 @@
 
 namespace beckon::ui_bridge {
 
-/// Runs `command` with the sentence as its last argument; no shell is involved. In the loop's
+/// Runs `command` with "--" and the sentence after it; no shell is involved. In the loop's
 /// thread; speaking itself is the child's.
 class Speaker {
  public:

@@ -303,6 +303,21 @@ TEST(ExpectedTime, IsNothingForWhatIsNotOnOffer) {
   EXPECT_FALSE(TimeToOption({}, PlainConfig(), 0));
 }
 
+TEST(ExpectedTime, OfTheDefaultsIsWhatTheDocumentsSay) {
+  // docs/front-ends/switch.md, "Method".
+  const auto seconds = [](Method method, Grouping grouping, int options) {
+    Config config;
+    config.method = method;
+    config.grouping = grouping;
+    return ExpectedSeconds(MakePlan(config, Options(options)), config, Options(options));
+  };
+  EXPECT_NEAR(seconds(Method::kAutomatic, Grouping::kLinear, 6), 5.6, 0.05);
+  EXPECT_NEAR(seconds(Method::kAutomatic, Grouping::kRowColumn, 16), 7.9, 0.05);
+  EXPECT_NEAR(seconds(Method::kAutomatic, Grouping::kBinary, 9), 6.9, 0.05);
+  EXPECT_NEAR(seconds(Method::kStep, Grouping::kLinear, 4), 3.0, 0.05);
+  EXPECT_NEAR(seconds(Method::kInverse, Grouping::kLinear, 2), 3.1, 0.05);
+}
+
 TEST(ScanSeconds, HaveTheMeanOfTheExactTimesAndTheScanTimeAsSlope) {
   Config config = PlainConfig();
   config.first_us = 0;
