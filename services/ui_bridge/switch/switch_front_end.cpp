@@ -50,6 +50,7 @@ void SwitchFrontEnd::Begin() {
 
 void SwitchFrontEnd::Present(const msg::Query& query) {
   query_ = query;
+  answered_.reset();
   between_ = false;
   shown_.reset();
   output_.Ask(query);
@@ -172,6 +173,8 @@ void SwitchFrontEnd::Choose(const scan::Action& action) {
   output_.Line("=> " + query_->options[option].text);
   reactions_.Chosen();
   chose_last_ = true;
+  answered_ = query_->id;
+  ShowPage();
 }
 
 void SwitchFrontEnd::Use(scan::Control control) {
@@ -228,9 +231,9 @@ void SwitchFrontEnd::SetScanTime(Utime scan_us) {
 }
 
 void SwitchFrontEnd::ShowPage() {
-  if (query_ && shown_ == query_->id) return Refresh();
+  if (Asks() && shown_ == query_->id) return Refresh();
   const scan::Page page = CurrentPage();
-  if (!query_ && shown_ == kControlPage && page.controls == controls_) return Refresh();
+  if (!Asks() && shown_ == kControlPage && page.controls == controls_) return Refresh();
   shown_ = page.id;
   controls_ = page.controls;
   scanner_.Show(steady_.Now(), page);
@@ -239,7 +242,7 @@ void SwitchFrontEnd::ShowPage() {
 
 scan::Page SwitchFrontEnd::CurrentPage() const {
   using scan::Control;
-  if (query_) return QuestionPage(*query_, config_.audio ? config_.seconds_a_letter : 0);
+  if (Asks()) return QuestionPage(*query_, config_.audio ? config_.seconds_a_letter : 0);
   scan::Page page;
   if (between_ && suggestion_) {
     page.controls = {Control::kAccept, Control::kKeep, Control::kStop};

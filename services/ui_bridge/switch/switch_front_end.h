@@ -52,7 +52,9 @@ class SwitchFrontEnd final : public FrontEnd, private SwitchListener {
   void DecideSuggestion(bool accepted);
   void SetScanTime(Utime scan_us);
 
-  /// What there is to choose now. A question that was answered is not shown again.
+  /// Whether a question stands that was not answered.
+  bool Asks() const { return query_ && answered_ != query_->id; }
+  /// What there is to choose now.
   void ShowPage();
   scan::Page CurrentPage() const;
   /// Brings screen, voice, bus and timer up to what the scanner says.
@@ -75,7 +77,8 @@ class SwitchFrontEnd final : public FrontEnd, private SwitchListener {
   std::optional<RunLoop::TimerId> beat_;
 
   std::optional<msg::Query> query_;
-  std::optional<int64_t> shown_;  // page of the scanner
+  std::optional<int64_t> answered_;  // id of the question
+  std::optional<int64_t> shown_;     // page of the scanner
   std::vector<scan::Control> controls_;
   bool in_session_ = false;
   bool between_ = false;          // a session is over and the next was not asked for
