@@ -34,7 +34,7 @@ class SwitchHand : public Hand {
   }
 
   void Begin(const HandSetup& setup) override {
-    setup_ = setup;
+    setup_.emplace(setup);
     setup_->bus.Subscribe<msg::Highlight>([this](const msg::Highlight& lit) {
       if (lit.device == setup_->device) Look(lit);
     });
