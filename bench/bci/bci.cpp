@@ -63,8 +63,7 @@ std::vector<Row> Rows() {
   for (const int classes : {2, 4, 9}) {
     for (const int percent : {60, 70, 80, 90}) {
       rows.push_back({std::to_string(classes) + " classes, " + std::to_string(percent) + " %",
-                      Decoder(classes, percent / 100.0),
-                      classes == 4 && percent == 70 ? 5 : 1});
+                      Decoder(classes, percent / 100.0), classes == 4 && percent == 70 ? 5 : 1});
     }
   }
   Row row{"4 classes, 70 %, twice too sure", Decoder(4, 0.7)};
@@ -107,7 +106,8 @@ std::string Line(const std::string& name, const char* which, const Tally& t) {
 }
 
 constexpr char kHead[] =
-    "| decoder | sessions | n | wrong tasks (95 %) | questions | trials | s | given up | stopped |\n"
+    "| decoder | sessions | n | wrong tasks (95 %) | questions | trials | s | given up | stopped "
+    "|\n"
     "|---|---|---|---|---|---|---|---|---|\n";
 
 Result<std::string> Measure(const intention::Affordances& affordances,
@@ -118,8 +118,8 @@ Result<std::string> Measure(const intention::Affordances& affordances,
   for (int user = 0; user < users; ++user) {
     const uint64_t seed = options.seed * 1'000'003 + static_cast<uint64_t>(user);
     auto sessions = intention::Simulate(
-        affordances, {.kind = "sparse", .users = 1, .sessions = kSessions, .repeat = 0.3,
-                      .seed = seed});
+        affordances,
+        {.kind = "sparse", .users = 1, .sessions = kSessions, .repeat = 0.3, .seed = seed});
     if (!sessions) return sessions.error();
     PersonConfig config = row.config;
     config.seed = seed;
@@ -136,8 +136,7 @@ Result<std::string> Measure(const intention::Affordances& affordances,
 Status Run(const Options& options) {
   auto affordances = intention::ReadAffordances(options.affordances);
   if (!affordances) return affordances.error();
-  auto policy =
-      intention::MakePolicy("adaptive", *affordances, intention::QueryFamilies::kAll);
+  auto policy = intention::MakePolicy("adaptive", *affordances, intention::QueryFamilies::kAll);
   if (!policy) return policy.error();
   std::string table = kHead;
   std::fputs(kHead, stdout);
@@ -161,8 +160,7 @@ Status Run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace beckon;
-  CLI::App app("Measures sessions with a simulated decoder of brain signals.",
-               "beckon-bench-bci");
+  CLI::App app("Measures sessions with a simulated decoder of brain signals.", "beckon-bench-bci");
   AppOptions common;
   bench::Options options;
   AddAppOptions(app, common);

@@ -31,8 +31,9 @@ Person::Person(const intention::Affordances& affordances, const intention::Polic
       config_(config),
       random_(config.seed),
       conversation_(affordances, policy, memory_),
-      dialogue_({.user = "person", .device = "bci"}, clock_, clock_,
-                [this] { return "session-" + std::to_string(++ids_); }, *this),
+      dialogue_(
+          {.user = "person", .device = "bci"}, clock_, clock_,
+          [this] { return "session-" + std::to_string(++ids_); }, *this),
       trials_(Uninviting(config.trials), "bci", 1, *this),
       calibration_(Classes(config.trials.layout)),
       decoder_(Classes(config.trials.layout), config.accuracy, config.sharpness) {
@@ -123,8 +124,8 @@ void Person::Hear(const intention::Outgoing& said) {
   done.task_id = task->task_id;
   done.state = msg::TaskState::kDone;
   Do(conversation_.OnTaskStatus(done, clock_.Now()));
-  const bool right = task->action == wanted_.action &&
-                     task->object.object_id == wanted_.object.object_id;
+  const bool right =
+      task->action == wanted_.action && task->object.object_id == wanted_.object.object_id;
   lived_.end = right ? Lived::End::kRight : Lived::End::kWrong;
   lived_.questions = task->questions;
   lived_.posterior = task->posterior;

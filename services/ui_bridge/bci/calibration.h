@@ -2,8 +2,8 @@
 // classes it takes for which, how often it is right.
 #pragma once
 
-#include <deque>
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 #include "services/ui_bridge/bci/evidence.h"

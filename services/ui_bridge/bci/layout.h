@@ -21,8 +21,8 @@ std::optional<Control> FindControl(const std::string& name);
 struct LayoutConfig {
   // Binary: two classes for yes and no, then one a control; only yes/no questions are asked.
   msg::StimulusMode mode = msg::StimulusMode::kMatrix;
-  int rows = 2;     // of the matrix; rows x columns <= 64
-  int columns = 2;  // rows x columns - controls >= 2
+  int rows = 2;                   // of the matrix; rows x columns <= 64
+  int columns = 2;                // rows x columns - controls >= 2
   std::vector<Control> controls;  // in the last cells, in this order; none twice
   double control_prior = 0.02;    // 0 .. 0.2, P(meant) of each, for when to stop
 };

@@ -20,8 +20,8 @@ struct Residual {
 Residual SimulateResidual(size_t classes, size_t options, double accuracy,
                           const StoppingConfig& stopping);
 
-/// A confusion of `options` fused answers that are wrong at `error` on average. Which ones are taken
-/// for which is as in `trial`, the confusion of single trials (of as many classes or more).
+/// A confusion of `options` fused answers that are wrong at `error` on average. Which ones are
+/// taken for which is as in `trial`, the confusion of single trials (of as many classes or more).
 std::vector<std::vector<float>> ResidualConfusion(const Confusion& trial, size_t options,
                                                   double error);
 

@@ -21,8 +21,8 @@ bool NamesWanted(const std::vector<msg::ObjectRef>& objects, const msg::Task& ta
 
 bool Holds(const msg::Option& option, const msg::Query& query, const msg::Task& task) {
   if (option.actions.empty() && option.objects.empty()) return false;  // "none of these"
-  if (!option.actions.empty() && std::count(option.actions.begin(), option.actions.end(),
-                                            task.action) == 0)
+  if (!option.actions.empty() &&
+      std::count(option.actions.begin(), option.actions.end(), task.action) == 0)
     return false;
   if (option.objects.empty()) return true;
   const int id = task.object.object_id;
@@ -44,8 +44,8 @@ std::optional<size_t> RightCategory(const msg::Query& query, const msg::Task& ta
 std::optional<size_t> RightOption(const msg::Query& query, const msg::Task& task) {
   if (query.kind == msg::QueryKind::kWhatIsIt) return RightCategory(query, task);
   if (query.kind != msg::QueryKind::kChoice) {
-    const bool action = query.any_action || std::count(query.actions.begin(), query.actions.end(),
-                                                       task.action) > 0;
+    const bool action =
+        query.any_action || std::count(query.actions.begin(), query.actions.end(), task.action) > 0;
     const bool object = query.any_object || NamesWanted(query.objects, task);
     return action && object ? 0 : 1;
   }

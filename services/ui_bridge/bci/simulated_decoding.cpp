@@ -47,8 +47,7 @@ std::vector<double> SimulatedDecoding::Draw(std::optional<size_t> attended,
   if (attended) scores[*attended] += separation_;
   const double most = *std::max_element(scores.begin(), scores.end());
   double sum = 0;
-  for (double& score : scores)
-    sum += score = std::exp(sharpness_ * separation_ * (score - most));
+  for (double& score : scores) sum += score = std::exp(sharpness_ * separation_ * (score - most));
   for (double& score : scores) score /= sum;
   return scores;
 }

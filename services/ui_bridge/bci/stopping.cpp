@@ -6,7 +6,7 @@
 namespace beckon::ui_bridge::bci {
 
 Verdict ShouldStop(const StoppingConfig& config, const std::vector<double>& posterior,
-                const std::vector<bool>& ends, int repetitions) {
+                   const std::vector<bool>& ends, int repetitions) {
   if (repetitions < config.min_repetitions) return Verdict::kNotYet;
   const auto best = std::max_element(posterior.begin(), posterior.end());
   const auto likeliest = static_cast<size_t>(best - posterior.begin());

@@ -11,7 +11,7 @@ struct StoppingConfig {
   // 0.5 .. 1, of a class whose answer ends the conversation: it is confirmed without a further
   // question.
   double final_threshold = 0.993;
-  int min_repetitions = 1;  // >= 1
+  int min_repetitions = 1;   // >= 1
   int max_repetitions = 12;  // >= min_repetitions; then what is known is answered, sure or not
 };
 
@@ -23,7 +23,7 @@ enum class Verdict {
 
 /// `posterior`: one a class. `ends`: whether a class ends the conversation; empty: none does.
 Verdict ShouldStop(const StoppingConfig& config, const std::vector<double>& posterior,
-                const std::vector<bool>& ends, int repetitions);
+                   const std::vector<bool>& ends, int repetitions);
 
 struct StopWatchConfig {
   // Trials between two false alarms, on average, at least; > 1. Fewer: a stop takes fewer trials.
@@ -39,7 +39,8 @@ class StopWatch {
  public:
   explicit StopWatch(const StopWatchConfig& config);
 
-  /// True: the user wants everything to stop. `log_likelihoods`: one a class; `stop`: which of them.
+  /// True: the user wants everything to stop. `log_likelihoods`: one a class; `stop`: which of
+  /// them.
   bool Hear(const std::vector<double>& log_likelihoods, size_t stop);
   void Reset() { sum_ = 0; }
   /// 0..1, of what is needed.

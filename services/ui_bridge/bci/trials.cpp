@@ -166,7 +166,8 @@ void Trials::StartTrial(Utime now) {
 std::optional<Refused> Trials::Check(const msg::Decoding& decoding) const {
   const std::string trial = "trial " + std::to_string(decoding.trial);
   if (decoding.device != device_)
-    return Refused{Refusal::kForeign, trial + " is of another front end, '" + decoding.device + "'"};
+    return Refused{Refusal::kForeign,
+                   trial + " is of another front end, '" + decoding.device + "'"};
   const bool other = config_.decoder.empty() ? !decoder_.empty() && decoding.decoder != decoder_
                                              : decoding.decoder != config_.decoder;
   // One that is not there any more may be replaced.
@@ -220,8 +221,7 @@ void Trials::Take(const msg::Decoding& decoding, Utime now) {
 
 void Trials::Decide(Utime now) {
   const auto posterior = Posterior();
-  const Verdict verdict =
-      ShouldStop(config_.stopping, posterior, layout_.ends, fusion_.trials());
+  const Verdict verdict = ShouldStop(config_.stopping, posterior, layout_.ends, fusion_.trials());
   if (verdict == Verdict::kNotYet) return;
   const bool sure = verdict == Verdict::kSure;
   const auto likeliest =

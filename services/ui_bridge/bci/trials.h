@@ -21,12 +21,12 @@ struct TrialsConfig {
   LayoutConfig layout;
   StoppingConfig stopping;
   StopWatchConfig stop_watch;
-  std::string decoder;            // the one that counts; empty: the first that is heard
-  double read_s = 1.5;            // s, >= 0, to read a question before its first trial
-  double pause_s = 0.3;           // s, >= 0, between trials
-  double trial_timeout_s = 10;    // s, > 0, without a decoding: the trial is lost
-  double rest_s = 10;             // s, >= 0, before "another task?" and "go on?" are asked again
-  bool invite = true;             // ask "another task?" when one is done
+  std::string decoder;          // the one that counts; empty: the first that is heard
+  double read_s = 1.5;          // s, >= 0, to read a question before its first trial
+  double pause_s = 0.3;         // s, >= 0, between trials
+  double trial_timeout_s = 10;  // s, > 0, without a decoding: the trial is lost
+  double rest_s = 10;           // s, >= 0, before "another task?" and "go on?" are asked again
+  bool invite = true;           // ask "another task?" when one is done
 };
 
 /// What trials want done.
@@ -61,12 +61,12 @@ struct Refused {
 };
 
 struct TrialCounters {
-  int64_t trials = 0;     // begun
-  int64_t decoded = 0;    // taken
-  int64_t lost = 0;       // without a decoding
-  int64_t refused = 0;    // decodings
+  int64_t trials = 0;   // begun
+  int64_t decoded = 0;  // taken
+  int64_t lost = 0;     // without a decoding
+  int64_t refused = 0;  // decodings
   int64_t answers = 0;
-  int64_t stops = 0;      // by the decoder
+  int64_t stops = 0;  // by the decoder
 };
 
 /// Times are those of one clock that never goes back. Not thread-safe.
@@ -75,8 +75,7 @@ class Trials {
   /// `device`: of this front end. Trials are numbered from `first_trial` (>= 1), which has to be
   /// above all numbers of an earlier run. `config` as Check(config.layout) wants it. `output` must
   /// outlive this.
-  Trials(const TrialsConfig& config, std::string device, int64_t first_trial,
-         TrialsOutput& output);
+  Trials(const TrialsConfig& config, std::string device, int64_t first_trial, TrialsOutput& output);
 
   /// A session was asked for, and is not announced yet.
   void Requested() { requested_ = true; }
@@ -140,16 +139,16 @@ class Trials {
   TrialsOutput& output_;
 
   std::optional<msg::Query> query_;
-  bool fits_ = true;                // the question on the classes
-  bool answered_ = false;           // or taken back by undo; nothing more is said about it
-  std::optional<Utime> retry_at_;   // ask it again, where undo came to nothing
+  bool fits_ = true;               // the question on the classes
+  bool answered_ = false;          // or taken back by undo; nothing more is said about it
+  std::optional<Utime> retry_at_;  // ask it again, where undo came to nothing
   bool stopped_ = false;
-  bool stopping_ = false;           // stop was requested and is not announced yet
+  bool stopping_ = false;  // stop was requested and is not announced yet
   bool paused_ = false;
   bool in_session_ = false;
   bool requested_ = false;
-  Utime rest_until_ = 0;            // nothing of our own is asked before
-  bool confirming_ = false;         // "go on" was said once after a stop
+  Utime rest_until_ = 0;     // nothing of our own is asked before
+  bool confirming_ = false;  // "go on" was said once after a stop
 
   Asking asking_ = Asking::kNothing;
   int64_t asked_ = 0;  // query id, where it is a question
