@@ -78,6 +78,9 @@ std::vector<Row> Rows() {
   row = {"4 classes, 70 %, names a class and no more", Decoder(4, 0.7)};
   row.config.names_only = true;
   rows.push_back(row);
+  row = {"4 classes, 70 %, attends to a wrong option in 5 % of questions", Decoder(4, 0.7)};
+  row.config.slip = 0.05;
+  rows.push_back(row);
   row = {"9 classes, 70 %, three of them stop, undo, pause", Decoder(9, 0.7)};
   row.config.trials.layout.controls = {Control::kUndo, Control::kPause, Control::kStop};
   rows.push_back(row);

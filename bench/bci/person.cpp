@@ -143,7 +143,7 @@ void Person::Decode() {
   if (clock_.Now() - stimulus_->utime < static_cast<Utime>(config_.trial_s * 1e6)) return;
   decoded_ = stimulus_->trial;
   std::optional<size_t> meant;
-  if (query_ && query_->id == stimulus_->query_id) meant = RightOption(*query_, wanted_);
+  if (query_ && query_->id == stimulus_->query_id) meant = meant_;
   msg::Decoding decoding;
   decoding.decoder = "simulated";
   decoding.device = "bci";
@@ -167,6 +167,9 @@ void Person::Send(const msg::Session& request) {
 }
 void Person::Present(const msg::Query& query) {
   query_ = query;
+  meant_ = RightOption(query, wanted_);
+  const size_t n = query.options.size();
+  if (meant_ && Uniform(random_) < config_.slip) meant_ = (*meant_ + 1 + random_() % (n - 1)) % n;
   trials_.Present(query, clock_.Now());
 }
 void Person::Withdraw() { trials_.Withdraw(clock_.Now()); }

@@ -25,6 +25,7 @@ struct PersonConfig {
   double accuracy = 0.7;    // of single trials
   double sharpness = 1;     // above 1: the decoder is surer than it ought to be
   double trial_s = 3;       // s, from the start of a trial to its decoding
+  double slip = 0;          // share of questions in which another option is attended to
   bool names_only = false;  // says which class and no more
   bool learns = true;       // calibrates
   uint64_t seed = 1;
@@ -89,6 +90,7 @@ class Person final : public ui_bridge::DialogueOutput, public ui_bridge::bci::Tr
   const intention::ScenarioSession* session_ = nullptr;
   msg::Task wanted_;
   std::optional<msg::Query> query_;
+  std::optional<size_t> meant_;  // option of the question
   std::optional<msg::Stimulus> stimulus_;
   int64_t decoded_ = 0;
   Lived lived_;

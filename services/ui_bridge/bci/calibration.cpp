@@ -5,12 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "services/ui_bridge/bci/simulated_decoding.h"
+
 namespace beckon::ui_bridge::bci {
 namespace {
 
 constexpr double kPriorVariance = 0.3 * 0.3;
 constexpr int kSweeps = 25;
 constexpr double kMostExponent = 5;
+constexpr double kLeastGap = 0.1;
 
 /// The two features of a trial's classes: log p and log of what the confusion makes of p.
 struct Features {
@@ -89,8 +92,24 @@ double Calibration::Accuracy() const {
   return right / all;
 }
 
+double Calibration::Gap(const DecoderModel& model) const {
+  const double least = 1.05 / static_cast<double>(classes_);
+  const double d =
+      SimulatedDecoding(classes_, std::max(config_.prior_accuracy, least)).separation();
+  double sum = config_.prior_trials * config_.prior_sharpness * d * d, all = config_.prior_trials;
+  double weight = 1;
+  for (auto trial = trials_.rbegin(); trial != trials_.rend(); ++trial, weight *= config_.fading) {
+    const auto logs = LogLikelihoods(trial->probabilities, model);
+    double others = -logs[trial->meant];
+    for (const double log : logs) others += log;
+    sum += weight * (logs[trial->meant] - others / static_cast<double>(classes_ - 1));
+    all += weight;
+  }
+  return std::max(kLeastGap, sum / all);
+}
+
 DecoderModel Calibration::Fit() const {
-  DecoderModel model{config_.prior_sharpness, 0, ExpectedConfusion()};
+  DecoderModel model{config_.prior_sharpness, 0, ExpectedConfusion(), 0};
   std::vector<double> rows(classes_, config_.prior_trials / static_cast<double>(classes_));
   std::vector<Features> trials;
   double weight = 1;
@@ -125,6 +144,7 @@ DecoderModel Calibration::Fit() const {
   }
   model.sharpness = exponents[0];
   model.habit = exponents[1];
+  model.gap = Gap(model);
   return model;
 }
 

@@ -46,6 +46,8 @@ class Calibration {
   DecoderModel Fit() const;
 
  private:
+  double Gap(const DecoderModel& model) const;
+
   size_t classes_;
   CalibrationConfig config_;
   std::deque<KnownTrial> trials_;

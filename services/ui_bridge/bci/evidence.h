@@ -25,6 +25,8 @@ struct DecoderModel {
   double sharpness = 0.8;  // >= 0
   double habit = 0;        // >= 0
   Confusion confusion;     // of as many classes as are decoded; not used where habit is 0
+  // By how much, on average, log P(signal | m) of the class meant is above the mean of the others.
+  double gap = 2;
 };
 
 /// Fails unless there are `classes` of them, each finite and 0 .. 1, that sum to 1 (+- 1e-3).

@@ -29,7 +29,7 @@ Residual SimulateResidual(size_t classes, size_t options, double accuracy,
     Fusion fusion(classes);
     std::vector<double> posterior;
     do {
-      fusion.Add(LogLikelihoods(decoder.Draw(meant, random), DecoderModel{1, 0, {}}));
+      fusion.Add(LogLikelihoods(decoder.Draw(meant, random), {.sharpness = 1}));
       posterior = fusion.Posterior(prior);
     } while (ShouldStop(stopping, posterior, {}, fusion.trials()) == Verdict::kNotYet);
     trials += fusion.trials();

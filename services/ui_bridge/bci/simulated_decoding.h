@@ -20,6 +20,8 @@ class SimulatedDecoding {
   /// Of one trial; nothing attended to: all classes alike. The same engine gives the same.
   std::vector<double> Draw(std::optional<size_t> attended, std::mt19937_64& random) const;
 
+  double separation() const { return separation_; }  // d
+
  private:
   size_t classes_;
   double separation_;

@@ -176,7 +176,7 @@ std::optional<Refused> Trials::Check(const msg::Decoding& decoding) const {
                    trial + " by '" + decoding.decoder + "': '" +
                        (config_.decoder.empty() ? decoder_ : config_.decoder) + "' counts"};
   }
-  if (decoding.trial == decoded_trial_)
+  if (decoded_trial_ != 0 && decoding.trial == decoded_trial_)
     return Refused{Refusal::kDuplicate, trial + " was decoded already"};
   if (!trial_ || decoding.trial != trial_->stimulus.trial) {
     return Refused{Refusal::kStale,
@@ -209,7 +209,8 @@ void Trials::Take(const msg::Decoding& decoding, Utime now) {
   next_trial_ = now + Microseconds(config_.pause_s);
   const auto logs = LogLikelihoods(decoding.probabilities, model_);
   const auto stop = ClassOf(config_.layout, Control::kStop);
-  if (stop && !stopped_ && stop_watch_.Hear(logs, *stop)) {
+  if (stop && !stopped_ &&
+      stop_watch_.Hear(logs, *stop, model_.gap, asking_ == Asking::kQuestion)) {
     ++counters_.stops;
     return Stop(now);
   }

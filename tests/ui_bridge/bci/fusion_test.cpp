@@ -15,7 +15,10 @@ const std::vector<double> kLogs = {0, -1, -2};
 
 TEST(Fusion, NothingHeardLeavesThePrior) {
   const Fusion fusion(3);
-  EXPECT_THAT(fusion.Posterior({0.2, 0.5, 0.3}), ::testing::ElementsAre(0.2, 0.5, 0.3));
+  const auto posterior = fusion.Posterior({0.2, 0.5, 0.3});
+  EXPECT_NEAR(posterior[0], 0.2, 1e-12);
+  EXPECT_NEAR(posterior[1], 0.5, 1e-12);
+  EXPECT_NEAR(posterior[2], 0.3, 1e-12);
 }
 
 TEST(Fusion, EqualTrialsMultiply) {

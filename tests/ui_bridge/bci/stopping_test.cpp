@@ -35,25 +35,27 @@ TEST(Stopping, WantsToBeSurerOfWhatEndsTheConversation) {
 
 TEST(StopWatch, OneClearTrialIsEnough) {
   StopWatch watch({.trials_per_false_stop = 50});
-  EXPECT_TRUE(watch.Hear({-5, -5, -5, 0}, 3));
+  EXPECT_TRUE(watch.Hear({-6, -6, -6, 0}, 3, 2, true));
 }
 
 TEST(StopWatch, WhatWasAttendedToBeforeDoesNotDelayIt) {
   StopWatch fresh({.trials_per_false_stop = 1000}), late({.trials_per_false_stop = 1000});
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(late.Hear({0, -3, -3, -3}, 3));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(late.Hear({0, -3, -3, -3}, 3, 2, true));
   int needed = 1;
-  while (!fresh.Hear({-2, -2, -2, 0}, 3)) ++needed;
-  for (int i = 1; i < needed; ++i) EXPECT_FALSE(late.Hear({-2, -2, -2, 0}, 3));
-  EXPECT_TRUE(late.Hear({-2, -2, -2, 0}, 3));
+  while (!fresh.Hear({-2, -2, -2, 0}, 3, 2, true)) ++needed;
+  for (int i = 1; i < needed; ++i) EXPECT_FALSE(late.Hear({-2, -2, -2, 0}, 3, 2, true));
+  EXPECT_TRUE(late.Hear({-2, -2, -2, 0}, 3, 2, true));
 }
 
 /// Of `what` attended to, trials until it fires; at most `most`.
 int TrialsUntilStop(std::optional<size_t> attended, double accuracy, double per_false, int most,
-                    std::mt19937_64& random) {
+                    std::mt19937_64& random, bool asked) {
   const SimulatedDecoding decoder(4, accuracy);
   StopWatch watch({.trials_per_false_stop = per_false});
+  const double gap = decoder.separation() * decoder.separation();
   for (int i = 1; i <= most; ++i)
-    if (watch.Hear(LogLikelihoods(decoder.Draw(attended, random), {.sharpness = 1}), 3)) return i;
+    if (watch.Hear(LogLikelihoods(decoder.Draw(attended, random), {.sharpness = 1}), 3, gap, asked))
+      return i;
   return most;
 }
 
@@ -61,20 +63,23 @@ TEST(StopWatch, FalseStopsAreAsRareAsConfigured) {
   std::mt19937_64 random(3);
   for (const auto attended : {std::optional<size_t>(0), std::optional<size_t>()}) {
     double sum = 0;
-    for (int i = 0; i < 60; ++i) sum += TrialsUntilStop(attended, 0.7, 100, 2000, random);
+    for (int i = 0; i < 60; ++i)
+      sum += TrialsUntilStop(attended, 0.7, 100, 5000, random, attended.has_value());
     EXPECT_GT(sum / 60, 100);
   }
 }
 
 TEST(StopWatch, AWantedStopTakesAFewTrials) {
   std::mt19937_64 random(4);
-  double sum = 0;
-  for (int i = 0; i < 200; ++i) {
-    const int trials = TrialsUntilStop(3, 0.7, 1000, 1000, random);
-    EXPECT_LT(trials, 60);
-    sum += trials;
+  for (const bool asked : {true, false}) {
+    double sum = 0;
+    for (int i = 0; i < 200; ++i) {
+      const int trials = TrialsUntilStop(3, 0.7, 100, 1000, random, asked);
+      EXPECT_LT(trials, 60);
+      sum += trials;
+    }
+    EXPECT_LT(sum / 200, asked ? 5 : 10);
   }
-  EXPECT_LT(sum / 200, 7);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class TrialsFuzzTest : public TrialsTest {
     static const std::vector<msg::SessionKind> kEvents = {
         msg::SessionKind::kIdle, msg::SessionKind::kBegun, msg::SessionKind::kConfirmed,
         msg::SessionKind::kAbandoned, msg::SessionKind::kStopped};
-    switch (Below(40)) {
+    switch (Below(150)) {
       case 0:
         standing_ = ++id_;
         return trials_->Present(Question(id_, 2 + Below(6)), now_);
@@ -92,7 +92,7 @@ TEST_F(TrialsFuzzTest, AnswersAreOfTheQuestionThatStandsOnceAndOfItsSize) {
     stopped_ = false;
     Begin();
     std::map<int64_t, int> times;
-    for (int step = 0; step < 3000; ++step) {
+    for (int step = 0; step < 6000; ++step) {
       const size_t before = out_.answers.size();
       Something();
       Pass(0.05 * static_cast<double>(Below(8)));

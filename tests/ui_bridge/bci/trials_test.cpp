@@ -196,7 +196,9 @@ TEST_F(TrialsTest, StopByHandIsAtOnceInEveryState) {
     out_ = {};
     Begin();
     if (state >= 1) trials_->Present(Question(5), now_);
-    if (state == 2) ASSERT_TRUE(AwaitTrial());
+    if (state == 2) {
+      ASSERT_TRUE(AwaitTrial());
+    }
     if (state == 3) Decode(0, 0.5);
     if (state == 4) trials_->TogglePause(now_);
     if (state == 5) trials_->OnSession(Request::kConfirmed, now_);
