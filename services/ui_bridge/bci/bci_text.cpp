@@ -9,9 +9,9 @@
 namespace beckon::ui_bridge::bci {
 namespace {
 
-constexpr size_t kWidest = 22;  // characters of a cell
+constexpr size_t kWidest = 36;  // characters of a cell
 constexpr size_t kNarrowest = 8;
-constexpr size_t kPage = 100;
+constexpr size_t kPage = 110;
 
 bool BeginsCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 

@@ -39,7 +39,7 @@ TEST(BciText, CutsLongLabelsBetweenCharacters) {
   layout.labels = {umlauts, std::string(60, 'x')};
   const auto text = RenderAsked("", layout);
   std::string cut;
-  for (int i = 0; i < 22; ++i) cut += "ü";
+  for (int i = 0; i < 36; ++i) cut += "ü";
   EXPECT_THAT(text, HasSubstr(" " + cut + " | "));
   layout.columns = 64;
   layout.labels.assign(64, umlauts);
