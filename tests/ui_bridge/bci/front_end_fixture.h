@@ -83,9 +83,11 @@ class FrontEndTest : public ::testing::Test {
     if (!table) return table.error();
     (*bci)->Configure(table->Section("bci"));
     if (auto read = table->Finish(); !read) return read;
-    bridge_ = std::make_unique<Service>(
-        ServiceConfig{.user = "ann", .device = "bci@test", .exit_after_sessions = sessions}, *bus_,
-        loop_, clock_, steady_);
+    bridge_ = std::make_unique<Service>(ServiceConfig{.user = "ann",
+                                                      .device = "bci@test",
+                                                      .exit_after_sessions = sessions,
+                                                      .listen_us = 50'000},
+                                        *bus_, loop_, clock_, steady_);
     if (auto added = bridge_->Add(**bci); !added) return added;
     bridge_->Begin();
     return {};
