@@ -94,6 +94,7 @@ void Scanner::Activate(Utime now) {
   paused_ = false;
   for (Press& press : presses_) {
     press.state = Press::State::kVoid;
+    press.closed_at_page = press.contact.raw_down();
     // What was held to scan was no beginning of a stop.
     if (std::exchange(press.advances, false)) press.stops_from = now;
   }

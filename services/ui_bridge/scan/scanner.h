@@ -117,6 +117,7 @@ class Scanner {
     Contact contact;
     State state = State::kVoid;  // kLive: may still choose or move
     Utime began = 0;
+    bool closed_at_page = false;      // when the page began
     bool advances = false;            // Method::kInverse: it moves the pointer
     std::optional<Utime> stops_from;  // holding from then on is a stop
   };

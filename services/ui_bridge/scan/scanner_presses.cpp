@@ -66,8 +66,10 @@ void Scanner::BeginPress(Utime at, Switch which) {
   Press& press = Of(which);
   const Press& other = Of(which == Switch::kMain ? Switch::kSelect : Switch::kMain);
   const bool repeat = last_press_ended_ && at - *last_press_ended_ < config_.ignore_repeat_us;
-  const bool early = at <= shown_at_ || at < shown_at_ + config_.guard_us;
-  press.state = repeat || early || other.contact.down() ? Press::State::kVoid : Press::State::kLive;
+  const bool carried = press.closed_at_page && at <= shown_at_;
+  const bool early = at < shown_at_ + config_.guard_us;
+  press.state = repeat || early || carried || other.contact.down() ? Press::State::kVoid
+                                                                   : Press::State::kLive;
   press.began = at;
   press.advances = false;
   press.stops_from = at;
