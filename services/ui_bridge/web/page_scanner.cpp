@@ -157,8 +157,10 @@ ScanSeconds ExpectedScanSeconds(const scan::Config& config, int n) {
     xx += (i + 1 - mean_x) * (i + 1 - mean_x);
     xy += (i + 1 - mean_x) * (seconds(i) - mean_y);
   }
-  const double slope = std::max(0.0, xx > 0 ? xy / xx : 0);
-  return {std::max(0.001, mean_y - slope * mean_x), slope};
+  constexpr double kLeast_s = 0.001;  // that may be announced
+  double slope = std::max(0.0, xx > 0 ? xy / xx : 0);
+  if (mean_y - slope * mean_x < kLeast_s) slope = std::max(0.0, (mean_y - kLeast_s) / mean_x);
+  return {std::max(kLeast_s, mean_y - slope * mean_x), slope};
 }
 
 }  // namespace beckon::ui_bridge::web

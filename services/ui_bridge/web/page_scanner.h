@@ -62,7 +62,8 @@ class PageScanner {
 };
 
 /// The line through the times after which each of `n` equally likely options is chosen: what the
-/// interface announces. Exact for linear grouping.
+/// interface announces. Right on average; for each option where grouping is linear and the first
+/// item is not lit longer.
 struct ScanSeconds {
   double per_question;  // s, > 0
   double per_option;    // s, >= 0, for each option up to the one that is chosen
