@@ -77,17 +77,20 @@ class WebFactory final : public FrontEndFactory {
   Result<std::unique_ptr<FrontEnd>> Create(const FrontEndSetup& setup) override {
     auto files = ReadPageFiles(config_.page.empty() ? SharedFile("web") : config_.page);
     if (!files) return files.error();
-    auto socket =
-        IsSocketInherited() ? TakeInheritedSocket() : Listen(config_.address, config_.port);
+    const bool inherited = IsSocketInherited();
+    auto socket = inherited ? TakeInheritedSocket() : Listen(config_.address, config_.port);
     if (!socket) return socket.error();
     auto rules = Rules(config_, *socket);
     if (!rules) {
       close(socket->fd);
       return rules.error();
     }
-    const std::string token = rules->token.empty() ? "" : "?token=" + rules->token;
-    std::printf("The page: %s/%s\n", socket->Url().c_str(), token.c_str());
-    std::fflush(stdout);
+    // Whoever made the socket tells people of it; but nobody else knows the token.
+    if (!inherited || !rules->token.empty()) {
+      const std::string token = rules->token.empty() ? "" : "?token=" + rules->token;
+      std::printf("The page: %s/%s\n", socket->Url().c_str(), token.c_str());
+      std::fflush(stdout);
+    }
     return std::unique_ptr<FrontEnd>(std::make_unique<WebFrontEnd>(
         config_, setup, socket->fd, *std::move(rules), *std::move(files)));
   }

@@ -52,6 +52,8 @@ class WebFrontEnd final : public FrontEnd, private PageActions {
   void ShowTaskStatus(const msg::TaskStatus& status) override;
   void ShowUser(const std::string& user) override;
   void ShowProfile(const msg::Profile& profile) override;
+  /// A page may be opened at any time.
+  bool Endless() const override { return true; }
   std::string State() const override;
 
   const HttpServer& server() const { return server_; }

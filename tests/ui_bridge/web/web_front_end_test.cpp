@@ -87,7 +87,7 @@ TEST_F(WebFrontEndTest, BeginsOneSessionForAPageThatIsLoadedAndNoneForOneThatCom
   Stream partner(port(), "?view=partner");
   Stream again(port(), "?view=user&again=1");
   ASSERT_TRUE(partner.Until([](const Json& s) { return s["user"] == "ann"; }));
-  std::this_thread::sleep_for(std::chrono::seconds(2));  // longer than the dialogue listens
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // longer than the dialogue listens
   EXPECT_EQ(Starts(), 0) << "that nothing happens has no event";
   Stream page(port(), "?view=user");
   ASSERT_TRUE(page.Until(IsOpen, 1.0)) << "the first question within a second";

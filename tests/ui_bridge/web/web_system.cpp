@@ -149,7 +149,7 @@ void WebSystem::StartBridge() {
   life_->bus = std::move(*Bus::Open("memq://"));
   life_->loop.AddFd(life_->bus->fd(), [this] { life_->bus->HandleReadable(); });
   life_->service = std::make_unique<Service>(
-      ServiceConfig{.user = "ann", .device = "desk", .exit_after_sessions = 0}, *life_->bus,
+      ServiceConfig{.user = "ann", .device = "desk", .listen_us = 300'000}, *life_->bus,
       life_->loop, clock_, steady_);
   Factory factory(*this);
   const auto added = life_->service->Add(factory);
