@@ -140,7 +140,7 @@ void AddSecurityHeaders(HttpResponse& response) {
       {"Cross-Origin-Opener-Policy", "same-origin"},
       {"Cross-Origin-Resource-Policy", "same-origin"},
       {"Permissions-Policy",
-       "camera=(), microphone=(), geolocation=(), payment=(), usb=(), serial=(), bluetooth=()"}};
+       "camera=(), microphone=(), geolocation=(), payment=(), usb=(), serial=()"}};
   response.headers.insert(response.headers.end(), kHeaders.begin(), kHeaders.end());
 }
 

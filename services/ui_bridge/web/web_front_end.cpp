@@ -252,7 +252,7 @@ void WebFrontEnd::Pace() {
 
 void WebFrontEnd::OnPace() {
   const Utime now = steady_.Now();
-  if (settings_.Tick(now)) EndTrial(false);
+  if (settings_.Tick(now)) UseSettings();
   if (scanner_) DoScanned(scanner_->Tick(now));
   Changed();
 }
