@@ -27,6 +27,16 @@ for (const name of Object.keys(VIEWS)) {
   });
 }
 
+test('axe sees a fault that is put in', async () => {
+  await inView(it, 'question', {}, async (page) => {
+    await page.evaluate(() => {
+      const button = document.getElementById('controls').appendChild(document.createElement('button'));
+      button.style.background = button.style.color = '#777';
+    });
+    assert.deepEqual((await axe(page)).violations.map((each) => each.id), ['button-name']);
+  });
+});
+
 for (const [size, pixels] of Object.entries(SIZES)) {
   test(`every target is at least 44 px, and nothing scrolls sideways (${size}, also with twice the text)`, async () => {
     for (const name of ['question', 'why', 'history', 'user', 'settings', 'resume', 'scanning']) {
@@ -51,20 +61,21 @@ test('with the keyboard every control is reached, its focus is seen, and none is
         return !groups.has(e.name) && groups.add(e.name);
       }).length;
     });
-    await page.evaluate(() => document.activeElement.blur());
     await page.locator('#skip').focus();
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Shift+Tab');
     const seen = new Set();
     for (let i = 0; i < 200; ++i) {
-      const { key, shows } = await page.evaluate(() => {
+      const { key, html, shows } = await page.evaluate(() => {
         const e = document.activeElement;
         const shown = e.matches('.radio input, .check input') ? e.parentElement : e;
         const style = getComputedStyle(shown);
         const all = [...document.querySelectorAll('*')];
-        return { key: e.type === 'radio' ? e.name : all.indexOf(e), shows: parseFloat(style.outlineWidth) >= 2 && style.outlineStyle !== 'none' };
+        return { key: e.type === 'radio' ? e.name : all.indexOf(e), html: e.outerHTML.slice(0, 120), shows: parseFloat(style.outlineWidth) >= 2 && style.outlineStyle !== 'none' };
       });
       if (seen.has(key)) break;
       seen.add(key);
-      assert.ok(shows, 'the focus is seen');
+      assert.ok(shows, `the focus is not seen on ${html}`);
       await page.keyboard.press('Tab');
       if (await page.evaluate(() => document.activeElement === document.body)) break;
     }

@@ -54,7 +54,10 @@ export class Person {
       if (state.event.kind === 'confirmed' || state.event.kind === 'abandoned') return { over: state };
       if (!state.query || state.query.answered || this.seen.has(state.query.id)) return null;
       return this.isShown(state.query) ? state : null;
-    }, `a question after ${this.questions} answers`, 20000);
+    }, `a question after ${this.questions} answers`, 20000).catch(async (error) => {
+      const { query, phase, event, notice } = await this.system.state();
+      throw new Error(`${error.message}; ${JSON.stringify({ query: query?.text, answered: query?.answered, phase, event, notice })}`);
+    });
   }
 
   async isShown(query) {

@@ -95,6 +95,7 @@ export class System {
   }
 
   async stop() {
+    if (process.env.BECKON_KEEP_LOGS) fs.cpSync(this.folder, process.env.BECKON_KEEP_LOGS, { recursive: true });
     await Promise.all([...this.processes.keys()].map((name) => this.kill(name)));
     fs.rmSync(this.folder, { recursive: true, force: true });
   }
