@@ -22,7 +22,8 @@ Dialogue::Dialogue(DialogueConfig config, const Clock& clock, const Clock& stead
       new_session_id_(std::move(new_session_id)),
       output_(output),
       listen_until_(steady.Now() + config_.listen_us),
-      heard_(steady.Now()) {}
+      heard_(steady.Now()),
+      ours_heard_(steady.Now()) {}
 
 void Dialogue::Tick() {
   const Utime now = steady_.Now();
@@ -37,6 +38,7 @@ void Dialogue::Tick() {
     answer_->due = now + config_.repeat_us;
     output_.Send(answer_->message);
   }
+  CheckLost(now);
   if (!silent_ && now - heard_ > config_.silence_us) {
     silent_ = true;
     output_.ShowNotice("Nothing is heard of the intention service; waiting for it.");
@@ -47,6 +49,7 @@ void Dialogue::OnQuery(const msg::Query& query) {
   if (query.user != config_.user) return;
   heard_ = steady_.Now();
   silent_ = false;
+  if (query.session_id == session_id_) ours_heard_ = heard_;
   if (phase_ == Phase::kStopped || Stopping() || cancelled_ || HasEnded(query.session_id)) return;
   if (phase_ != Phase::kRunning || query.session_id != session_id_) Join(query.session_id);
   if (!presented_.insert(query.id).second) return;
@@ -83,6 +86,7 @@ void Dialogue::OnSession(const msg::Session& event) {
   if (Stopping() || HasEnded(event.session_id)) return;
   if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
   if (phase_ != Phase::kRunning || event.session_id != session_id_) Join(event.session_id);
+  ours_heard_ = heard_;
   if (answer_ && query_ && event.questions > query_->questions_asked) answer_.reset();
   // It waits for something, and asks anew when that is there.
   if (query_ && !event.text.empty() && event.utime > query_->utime) DropQuery();
@@ -116,6 +120,18 @@ void Dialogue::OnIdle(const msg::Session& event) {
       break;
   }
   ShowOnce(event);
+}
+
+/// Intention that came back may have other things to say than IDLE: that another session, or one of
+/// another user, is confirmed.
+void Dialogue::CheckLost(Utime now) {
+  if (phase_ != Phase::kRunning || Stopping() || heard_ - ours_heard_ <= config_.lost_us) return;
+  ours_heard_ = now;
+  msg::Session idle;
+  idle.utime = clock_.Now();
+  idle.user = config_.user;
+  idle.kind = msg::SessionKind::kIdle;
+  OnIdle(idle);
 }
 
 void Dialogue::OnEnd(const msg::Session& event) {
@@ -249,6 +265,7 @@ void Dialogue::Join(const std::string& session_id) {
   }
   session_id_ = session_id;
   phase_ = Phase::kRunning;
+  ours_heard_ = heard_;
   wanted_ = false;
 }
 

@@ -21,6 +21,7 @@ struct DialogueConfig {
   Utime listen_us = 1'500'000;     // before the first request: join what runs already
   Utime repeat_us = 500'000;       // of what may have been lost
   Utime silence_us = 4 * kSecond;  // without a word of intention: tell the user
+  Utime lost_us = 3 * kSecond;     // intention speaks, but not of our session: it forgot it
 };
 
 /// What a dialogue wants done: `Send` goes to the bus, the rest to the user.
@@ -97,6 +98,8 @@ class Dialogue {
   void ShowOnce(const msg::Session& event);
   void OnIdle(const msg::Session& event);
   void OnEnd(const msg::Session& event);
+  /// Intention speaks, but no longer of the session that runs.
+  void CheckLost(Utime now);
   void Insist(msg::SessionKind kind);
   /// Intention has not said yet that it stopped.
   bool Stopping() const;
@@ -132,7 +135,8 @@ class Dialogue {
   int questions_ = 0;                              // answers so far, as intention counts them
   std::deque<std::string> ended_;                  // the latest sessions that are over
   std::optional<msg::Session> shown_;
-  Utime heard_;  // when intention last said anything
+  Utime heard_;       // when intention last said anything
+  Utime ours_heard_;  // when it last spoke of the session that runs
   bool silent_ = false;
 };
 

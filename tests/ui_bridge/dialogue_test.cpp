@@ -235,6 +235,48 @@ TEST_F(DialogueTest, StartsOverWithTheSameIdWhenIntentionComesBackIdle) {
   EXPECT_THAT(out_.presented, ElementsAre(1, 1));
 }
 
+TEST_F(DialogueTest, StartsOverWithTheSameIdWhenIntentionSpeaksOfOtherSessionsOnly) {
+  const std::string id = Begin();
+  Ask(7, id);
+  dialogue_.Answer(7, {1, 0});
+  const int before = out_.Count(SessionKind::kRequestStart);
+  // Intention was killed; what it comes back with is the task before, and another user's session.
+  for (int i = 0; i < 5; ++i) {
+    Pass(kSecond);
+    Hear(SessionKind::kConfirmed, "earlier");
+    Hear(SessionKind::kBegun, "another", 0, "bob");
+  }
+  EXPECT_GT(out_.Count(SessionKind::kRequestStart), before);
+  EXPECT_EQ(out_.requests.back().session_id, id);
+  EXPECT_EQ(out_.withdrawn, 1);
+  Hear(SessionKind::kBegun, id);
+  Ask(8, id);
+  EXPECT_THAT(out_.presented, ElementsAre(7, 8));
+}
+
+TEST_F(DialogueTest, WhileIntentionSpeaksOfTheSessionOrNotAtAllItIsNotStartedOver) {
+  const std::string id = Begin();
+  const int before = out_.Count(SessionKind::kRequestStart);
+  for (int i = 0; i < 10; ++i) {
+    Pass(kSecond);
+    Hear(SessionKind::kConfirmed, "earlier");
+    Hear(SessionKind::kBegun, id);
+  }
+  Pass(20 * kSecond);
+  EXPECT_EQ(out_.Count(SessionKind::kRequestStart), before);
+}
+
+TEST_F(DialogueTest, ACancelledSessionThatIntentionForgotIsOver) {
+  Begin();
+  dialogue_.Cancel();
+  for (int i = 0; i < 5; ++i) {
+    Pass(kSecond);
+    Hear(SessionKind::kConfirmed, "earlier");
+  }
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kIdle);
+  EXPECT_EQ(out_.shown.back(), SessionKind::kIdle);
+}
+
 TEST_F(DialogueTest, TakesAConfirmationForARepeatedRequest) {
   const auto id = Begin();
   Hear(SessionKind::kIdle, "", 0, "");
