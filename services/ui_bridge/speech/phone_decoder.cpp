@@ -21,12 +21,19 @@ constexpr int kFewestFrames = 10;
 
 using Cepstrum = std::array<mfcc_t, 13>;
 
-/// Takes away what the microphone and the room add to all frames.
+/// The mean that the model's makers saw, for speech of the level that Levelled gives.
+constexpr Cepstrum kUsualMean = {41.00F, -5.29F, -0.12F, 5.09F,  2.48F,  -4.07F, -1.37F,
+                                 -1.78F, -5.08F, -2.05F, -6.45F, -1.42F, 1.17F};
+
+/// Takes away what the microphone and the room add to all frames: their mean, drawn towards the usual
+/// one, since a word is too short to have a mean of its own.
 void SubtractMean(std::vector<Cepstrum>& cepstra) {
+  const float kUsualFrames = getenv("CW") ? atof(getenv("CW")) : 0;
   Cepstrum mean{};
-  const auto n = static_cast<float>(cepstra.size());
-  for (const auto& cepstrum : cepstra) {
-    for (size_t i = 0; i < mean.size(); ++i) mean[i] += cepstrum[i] / n;
+  const auto n = static_cast<float>(cepstra.size()) + kUsualFrames;
+  for (size_t i = 0; i < mean.size(); ++i) {
+    mean[i] = kUsualFrames * kUsualMean[i] / n;
+    for (const auto& cepstrum : cepstra) mean[i] += cepstrum[i] / n;
   }
   for (auto& cepstrum : cepstra) {
     for (size_t i = 0; i < mean.size(); ++i) cepstrum[i] -= mean[i];
