@@ -1,0 +1,209 @@
+// Whole conversations: an intention of this test's own asks, a mouth made of espeak-ng answers into
+// the microphone, which is a FIFO.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <deque>
+#include <filesystem>
+#include <random>
+
+#include "services/base/run_loop.h"
+#include "services/ui_bridge/service.h"
+#include "services/ui_bridge/speech/espeak.h"
+
+namespace beckon::ui_bridge {
+namespace {
+
+constexpr Utime kBeat_us = 50'000;
+constexpr size_t kBeatSamples = 800;
+
+std::unique_ptr<FrontEndFactory> SpeechFactory(const std::string& toml) {
+  for (auto& factory : MakeFrontEndFactories()) {
+    if (factory->name() != "speech") continue;
+    auto table = ConfigTable::Parse(toml, "test.toml");
+    factory->Configure(table->Section("speech"));
+    EXPECT_TRUE(table->Finish()) << table->Finish().error().message;
+    return std::move(factory);
+  }
+  return nullptr;
+}
+
+class SpokenTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("beckon_spoken_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    const std::string fifo = folder_ / "mic";
+    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+    microphone_ = open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(microphone_, 0);
+    loop_.AddFd(bus_->fd(), [this] { bus_->HandleReadable(); });
+    loop_.After(110 * kSecond, [this] {
+      ADD_FAILURE() << "not done after 110 s";
+      loop_.Stop();
+    });
+    loop_.Every(kBeat_us, [this] { Beat(); });
+    bus_->Subscribe<msg::Session>([this](const msg::Session& request) { OnSession(request); });
+    bus_->Subscribe<msg::Answer>([this](const msg::Answer& answer) { OnAnswer(answer); });
+  }
+
+  void TearDown() override {
+    close(microphone_);
+    std::filesystem::remove_all(folder_);
+  }
+
+  /// The microphone hears the room, and what the mouth says.
+  void Beat() {
+    std::normal_distribution<double> room(0, 12);
+    std::vector<int16_t> beat(kBeatSamples);
+    for (auto& x : beat) {
+      x = static_cast<int16_t>(room(random_));
+      if (to_say_.empty()) continue;
+      x = static_cast<int16_t>(x + to_say_.front());
+      to_say_.pop_front();
+    }
+    [[maybe_unused]] const auto written = write(microphone_, beat.data(), 2 * beat.size());
+  }
+
+  /// Says it `after_us` from now.
+  void Say(const std::string& text, Utime after_us) {
+    auto wave = speech::SpeakToWave({}, text);
+    ASSERT_TRUE(wave) << wave.error().message;
+    const auto samples = speech::AtSampleRate(*wave);
+    loop_.After(after_us, [this, samples] {
+      for (const int16_t x : samples) to_say_.push_back(static_cast<int16_t>(x / 2));
+    });
+  }
+
+  void Announce(msg::SessionKind kind, const std::string& text = "") {
+    msg::Session event;
+    event.utime = clock_.Now();
+    event.session_id = session_;
+    event.user = "ann";
+    event.kind = kind;
+    event.text = text;
+    ASSERT_TRUE(bus_->Publish(event));
+  }
+
+  void Ask(int64_t id, const std::vector<std::string>& options, msg::QueryKind kind) {
+    msg::Query query;
+    query.utime = clock_.Now();
+    query.id = id;
+    query.session_id = session_;
+    query.user = "ann";
+    query.kind = kind;
+    query.text = "Open the carton?";
+    for (const auto& text : options) {
+      msg::Option option;
+      option.text = text;
+      query.options.push_back(option);
+    }
+    query.scene_seq = 1;
+    ASSERT_TRUE(bus_->Publish(query));
+  }
+
+  void OnSession(const msg::Session& request) {
+    if (static_cast<int>(request.kind) >= static_cast<int>(msg::SessionKind::kIdle)) return;
+    requests_.push_back(request.kind);
+    if (request.kind == msg::SessionKind::kRequestStart && session_.empty()) {
+      session_ = request.session_id;
+      Announce(msg::SessionKind::kBegun);
+      begun_();
+    }
+    if (request.kind == msg::SessionKind::kRequestStop) {
+      Announce(msg::SessionKind::kStopped, "stopped");
+      stopped_();
+    }
+  }
+
+  void OnAnswer(const msg::Answer& answer) {
+    if (!answers_.emplace(answer.query_id, answer.likelihoods).second) return;
+    answered_(answer.query_id);
+  }
+
+  void Run(const std::string& play) {
+    auto factory = SpeechFactory("[speech]\ninput = \"" + (folder_ / "mic").string() +
+                                 "\"\nask_again_s = 0\nplay = " + play + "\n");
+    ASSERT_TRUE(factory);
+    Service service({.user = "ann", .device = "", .exit_after_sessions = 1}, *bus_, loop_, clock_,
+                    steady_);
+    const auto added = service.Add(*factory);
+    ASSERT_TRUE(added) << added.error().message;
+    service.Begin();
+    loop_.Run();
+  }
+
+  SystemClock clock_;
+  SteadyClock steady_;
+  RunLoop loop_;
+  std::unique_ptr<Bus> bus_ = std::move(*Bus::Open("memq://"));
+  std::filesystem::path folder_;
+  int microphone_ = -1;
+  std::mt19937_64 random_{1};
+  std::deque<int16_t> to_say_;
+  std::string session_;
+  std::map<int64_t, std::vector<double>> answers_;
+  std::vector<msg::SessionKind> requests_;
+  std::function<void()> begun_ = [] {};
+  std::function<void()> stopped_ = [] {};
+  std::function<void(int64_t)> answered_ = [](int64_t) {};
+};
+
+TEST_F(SpokenTest, ALedConversationEndsInWhatTheMouthSaid) {
+  begun_ = [this] {
+    Ask(1, {"Yes", "No"}, msg::QueryKind::kFull);
+    Say("no", 3 * kSecond);
+  };
+  answered_ = [this](int64_t id) {
+    if (id == 1) {
+      Ask(2, {"Open the carton", "Squeeze the tube", "None of these"}, msg::QueryKind::kChoice);
+      Say("open the carton", 2 * kSecond);
+    } else {
+      Announce(msg::SessionKind::kConfirmed, "Open the carton.");
+    }
+  };
+  Run("[\"true\"]");
+  ASSERT_EQ(answers_.size(), 2u);
+  EXPECT_EQ(answers_[1].size(), 2u);
+  EXPECT_EQ(answers_[1][1], 1) << "no";
+  EXPECT_LT(answers_[1][0], 1);
+  EXPECT_EQ(answers_[2].size(), 3u);
+  EXPECT_EQ(answers_[2][0], 1) << "open the carton";
+}
+
+TEST_F(SpokenTest, StopDuringAPromptStopsAtOnceAndEndsThePrompt) {
+  begun_ = [this] {
+    Ask(1, {"Yes", "No"}, msg::QueryKind::kFull);
+    Say("stop", 3 * kSecond);
+  };
+  Utime stopped_at = 0;
+  stopped_ = [&] {
+    if (stopped_at == 0) stopped_at = steady_.Now();
+    loop_.Stop();
+  };
+  const Utime begin = steady_.Now();
+  Run("[\"sleep\", \"100\"]");
+  EXPECT_THAT(requests_, ::testing::Contains(msg::SessionKind::kRequestStop));
+  EXPECT_LT(stopped_at - begin, 90 * kSecond) << "the prompt takes 100 s";
+  EXPECT_TRUE(answers_.empty());
+}
+
+TEST_F(SpokenTest, OtherSpeechIsNoAnswer) {
+  begun_ = [this] {
+    Ask(1, {"Yes", "No"}, msg::QueryKind::kFull);
+    Say("the weather is fine today", 2 * kSecond);
+    Say("I would like some tea please", 6 * kSecond);
+    Say("yes", 12 * kSecond);
+  };
+  answered_ = [this](int64_t) { Announce(msg::SessionKind::kConfirmed, "Done."); };
+  Run("[\"true\"]");
+  ASSERT_EQ(answers_.size(), 1u);
+  EXPECT_EQ(answers_[1][0], 1) << "yes, not what was said before";
+}
+
+}  // namespace
+}  // namespace beckon::ui_bridge
