@@ -71,6 +71,7 @@ class WebFactory final : public FrontEndFactory {
     table.Get("false_yes", config_.false_yes, 0, 0.5);
     table.Get("false_no", config_.false_no, 0, 0.5);
     table.Get("switch_errors", config_.switch_errors, 0, 0.5);
+    table.Get("trial", config_.trial_s, 1, 600);
     if (port_ != nullptr && port_->count() > 0) config_.port = flag_;
   }
 

@@ -29,11 +29,10 @@ std::optional<Utime> SettingsTrial::NextDeadline() const {
   return trial_->until;
 }
 
-Utime TrialLength_us(const Settings& settings) {
-  constexpr Utime kLength_us = 20 * kSecond;
-  if (!settings.scans()) return kLength_us;
+Utime TrialLength_us(const Settings& settings, Utime least_us) {
+  if (!settings.scans()) return least_us;
   const scan::Config config = ScanConfig(settings);
-  return std::max(kLength_us, 4 * (config.first_us + 2 * config.scan_us + config.hold_us));
+  return std::max(least_us, 4 * (config.first_us + 2 * config.scan_us + config.hold_us));
 }
 
 }  // namespace beckon::ui_bridge::web

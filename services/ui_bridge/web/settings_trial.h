@@ -42,8 +42,8 @@ class SettingsTrial {
   std::optional<Trial> trial_;
 };
 
-/// 20 s, or more where scanning needs it: four times the longest way to the end of a question
+/// `least_us`, or more where scanning needs it: four times the longest way to the end of a question
 /// "keep, go back".
-Utime TrialLength_us(const Settings& settings);
+Utime TrialLength_us(const Settings& settings, Utime least_us);
 
 }  // namespace beckon::ui_bridge::web

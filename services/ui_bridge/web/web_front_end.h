@@ -30,7 +30,8 @@ struct WebConfig {
   double seconds_per_option = 0.5;    // s, more for each option
   double false_yes = 0.005;           // 0..0.5, where learning starts
   double false_no = 0.005;            // 0..0.5
-  double switch_errors = 0.02;        // 0..0.5, instead of both where it is scanned
+  double trial_s = 20;          // s, for which new settings are tried; longer for slow scanning
+  double switch_errors = 0.02;  // 0..0.5, instead of both where it is scanned
 };
 
 class WebFrontEnd final : public FrontEnd, private PageActions {

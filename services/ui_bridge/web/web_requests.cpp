@@ -124,7 +124,7 @@ Outcome WebFrontEnd::ChooseUser(const std::string& user) {
 Outcome WebFrontEnd::TrySettings(const Json& json) {
   auto settings = ReadSettings(json, settings_.current());
   if (!settings) return Outcome::Failed(400, settings.error().message);
-  const Utime length = TrialLength_us(*settings);
+  const Utime length = TrialLength_us(*settings, static_cast<Utime>(config_.trial_s * kSecond));
   settings_.Try(steady_.Now(), *std::move(settings), length);
   UseSettings();
   Changed();

@@ -180,11 +180,11 @@ TEST(SettingsTrial, OfOthersDuringATrialGoesBackToWhatWasKeptBefore) {
 
 TEST(SettingsTrial, LastsLongEnoughForASlowScanner) {
   Settings settings{.access = "one_switch"};
-  EXPECT_EQ(TrialLength_us(settings), 20 * kSecond);
+  EXPECT_EQ(TrialLength_us(settings, 20 * kSecond), 20 * kSecond);
   settings.scan.scan_time_s = 10;
-  EXPECT_GE(TrialLength_us(settings), 80 * kSecond);
+  EXPECT_GE(TrialLength_us(settings, 20 * kSecond), 80 * kSecond);
   settings.access = "pointer";
-  EXPECT_EQ(TrialLength_us(settings), 20 * kSecond);
+  EXPECT_EQ(TrialLength_us(settings, 20 * kSecond), 20 * kSecond);
 }
 
 }  // namespace

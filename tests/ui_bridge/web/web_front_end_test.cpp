@@ -473,6 +473,24 @@ TEST_F(WebFrontEndTest, RefusesOtherSitesAndNames) {
   EXPECT_EQ(Ask(port(), "POST", "/api/request", headers, stop).status, 200);
 }
 
+TEST(WebTrial, GoesBackToTheEarlierSettingsByItself) {
+  WebSystem system({}, /*trial_s=*/0.3);
+  Stream page(system.port(), "?view=user");
+  ASSERT_TRUE(page.Until([](const Json& s) { return s["settings_trial"].is_null(); }));
+  const Json before = page.state()["settings_rev"];
+  ASSERT_EQ(Send(system.port(), "PUT", "/api/settings",
+                 {{"settings", {{"access", "one_switch"}, {"scan", {{"scan_time_s", 0.2}}}}}})
+                .status,
+            200);
+  ASSERT_TRUE(page.Until([](const Json& s) { return s["scanning"] == true; }));
+  const Json during = page.state()["settings_rev"];
+  EXPECT_NE(during, before);
+  ASSERT_TRUE(page.Until([](const Json& s) { return s["settings_trial"].is_null(); }, 10));
+  EXPECT_EQ(page.state()["scanning"], false);
+  EXPECT_NE(page.state()["settings_rev"], during);
+  EXPECT_EQ(Get(system.port(), "/api/settings").json()["settings"]["access"], "pointer");
+}
+
 TEST(WebToken, OpensThePageAndEverythingElseStaysClosed) {
   WebSystem system({.loopback = false, .token = "00112233445566778899aabbccddeeff", .cookie = "b"});
   for (const char* path : {"/", "/main.js", "/api/state", "/api/events", "/api/frame", "/?token=x"})

@@ -129,7 +129,7 @@ class WebSystem::Factory final : public FrontEndFactory {
     auto socket = Listen("127.0.0.1", system_.port_);
     if (!socket) return socket.error();
     system_.port_ = socket->port;
-    WebConfig config{.data = system_.folder_.data()};
+    WebConfig config{.data = system_.folder_.data(), .trial_s = system_.trial_s_};
     auto made = std::make_unique<WebFrontEnd>(config, setup, socket->fd, system_.rules_,
                                               *ReadPageFiles(system_.folder_.page()));
     system_.front_end_ = made.get();
@@ -140,7 +140,10 @@ class WebSystem::Factory final : public FrontEndFactory {
   WebSystem& system_;
 };
 
-WebSystem::WebSystem(AccessRules rules) : rules_(std::move(rules)) { StartBridge(); }
+WebSystem::WebSystem(AccessRules rules, double trial_s)
+    : rules_(std::move(rules)), trial_s_(trial_s) {
+  StartBridge();
+}
 
 WebSystem::~WebSystem() { StopBridge(); }
 

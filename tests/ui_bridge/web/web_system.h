@@ -64,7 +64,7 @@ class WebFolder {
 /// ui_bridge with this front end alone. A restart keeps port and intention.
 class WebSystem {
  public:
-  explicit WebSystem(AccessRules rules = {});
+  explicit WebSystem(AccessRules rules = {}, double trial_s = 20);
   ~WebSystem();
 
   int port() const { return port_; }
@@ -92,6 +92,7 @@ class WebSystem {
 
   const WebFolder folder_;
   const AccessRules rules_;
+  const double trial_s_;
   const SystemClock clock_;
   const SteadyClock steady_;
   int port_ = 0;
