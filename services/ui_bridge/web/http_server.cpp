@@ -19,8 +19,7 @@ namespace beckon::ui_bridge::web {
 namespace {
 
 constexpr Utime kSweep_us = 100'000;
-constexpr int kMostAccepted = 32;  // in one go, so that others are served in between
-constexpr size_t kMostLingering = 256 * 1024;
+constexpr int kMostAccepted = 32;       // in one go, so that others are served in between
 constexpr int kMostUnsent = 32 * 1024;  // that the system holds: what is newer replaces the rest
 constexpr uint64_t kListening = 0;      // instead of a connection's id
 
@@ -34,29 +33,6 @@ std::string RenderEvent(const std::string& event, const std::string& data) {
 }
 
 }  // namespace
-
-struct HttpServer::Connection {
-  enum class State { kOpen, kStream, kLingering };
-
-  uint64_t id;  // never used again
-  int fd;
-  HttpParser parser;
-  State state = State::kOpen;
-  std::deque<Bytes> out;
-  size_t sent = 0;           // of out.front()
-  bool close_after = false;  // what waits to be sent
-  bool ended = false;        // the client says no more
-  bool stale = false;        // the stream has to be told the latest
-  size_t lingered = 0;       // bytes
-  size_t requests = 0;
-  uint32_t watched = EPOLLIN | EPOLLRDHUP;
-  Utime opened;
-  Utime request_since;  // first byte of a request that is not complete; 0 = none
-  Utime moved;          // last byte received or taken
-  Utime told;           // last byte of a stream
-
-  bool sending() const { return !out.empty(); }
-};
 
 HttpServer::HttpServer(HttpServerConfig config, int listening, RunLoop& loop, const Clock& steady,
                        Handler handler)
@@ -111,13 +87,14 @@ void HttpServer::Accept() {
       continue;
     }
     const Utime now = steady_.Now();
-    connections_[id] = std::make_unique<Connection>(Connection{.id = id,
-                                                               .fd = fd,
-                                                               .parser = HttpParser(config_.limits),
-                                                               .opened = now,
-                                                               .request_since = now,
-                                                               .moved = now,
-                                                               .told = now});
+    connections_[id] =
+        std::make_unique<HttpConnection>(HttpConnection{.id = id,
+                                                        .fd = fd,
+                                                        .parser = HttpParser(config_.limits),
+                                                        .opened = now,
+                                                        .request_since = now,
+                                                        .moved = now,
+                                                        .told = now});
     ++counts_.accepted;
     if (connections_.size() > config_.connections) MakeRoom();
   }
@@ -126,60 +103,37 @@ void HttpServer::Accept() {
 /// Who has been quiet the longest goes; event streams, which are meant to be quiet, last.
 void HttpServer::MakeRoom() {
   const auto quietest = std::ranges::min_element(connections_, {}, [](const auto& entry) {
-    const Connection& c = *entry.second;
-    return std::pair(c.state == Connection::State::kStream, c.moved);
+    const HttpConnection& c = *entry.second;
+    return std::pair(c.state == HttpConnection::State::kStream, c.moved);
   });
   if (quietest == connections_.end()) return;
   ++counts_.displaced;
   Close(*quietest->second);
 }
 
-void HttpServer::Handle(Connection& connection, uint32_t events) {
+void HttpServer::Handle(HttpConnection& connection, uint32_t events) {
   if ((events & (EPOLLHUP | EPOLLERR)) != 0) return Close(connection);
-  if ((events & (EPOLLIN | EPOLLRDHUP)) != 0 && !Read(connection)) return Close(connection);
+  if ((events & (EPOLLIN | EPOLLRDHUP)) != 0 && !connection.Read(steady_.Now()))
+    return Close(connection);
   if (!Advance(connection)) return Close(connection);
   Update(connection);
 }
 
-bool HttpServer::Read(Connection& connection) {
-  std::array<char, 16384> bytes;
-  const ssize_t n = recv(connection.fd, bytes.data(), bytes.size(), 0);
-  if (n < 0) return errno == EAGAIN || errno == EINTR;
-  if (n == 0) {
-    // Who says no more may still listen for the response; a stream's reader has left.
-    connection.ended = true;
-    return connection.state == Connection::State::kOpen;
-  }
-  connection.moved = steady_.Now();
-  switch (connection.state) {
-    case Connection::State::kLingering:
-      connection.lingered += static_cast<size_t>(n);
-      return connection.lingered <= kMostLingering;
-    case Connection::State::kStream:
-      return true;  // nothing is asked on a stream
-    case Connection::State::kOpen:
-      if (connection.request_since == 0) connection.request_since = connection.moved;
-      connection.parser.Feed({bytes.data(), static_cast<size_t>(n)});
-      return true;
-  }
-  return false;
-}
-
 /// Writes what waits, and answers requests one after the other as responses are taken away.
-bool HttpServer::Advance(Connection& connection) {
+bool HttpServer::Advance(HttpConnection& connection) {
   for (;;) {
-    if (!Write(connection)) return false;
+    if (!connection.Write(steady_.Now())) return false;
     if (connection.sending()) return true;
-    if (connection.state == Connection::State::kStream) {
+    if (connection.state == HttpConnection::State::kStream) {
       if (!std::exchange(connection.stale, false)) return true;
       connection.out.push_back(latest_);
       continue;
     }
-    if (connection.state == Connection::State::kLingering) return !connection.ended;
+    if (connection.state == HttpConnection::State::kLingering) return !connection.ended;
     if (connection.close_after) {
       // Closing with bytes unread would take the response away from the client.
       shutdown(connection.fd, SHUT_WR);
-      connection.state = Connection::State::kLingering;
+      connection.state = HttpConnection::State::kLingering;
       connection.moved = steady_.Now();
       return !connection.ended;
     }
@@ -196,23 +150,7 @@ bool HttpServer::Advance(Connection& connection) {
   }
 }
 
-bool HttpServer::Write(Connection& connection) {
-  while (connection.sending()) {
-    const std::string& front = *connection.out.front();
-    const ssize_t n =
-        send(connection.fd, front.data() + connection.sent, front.size() - connection.sent,
-             MSG_NOSIGNAL | (connection.out.size() > 1 ? MSG_MORE : 0));
-    if (n < 0) return errno == EAGAIN || errno == EINTR;
-    connection.moved = connection.told = steady_.Now();
-    connection.sent += static_cast<size_t>(n);
-    if (connection.sent < front.size()) return true;
-    connection.sent = 0;
-    connection.out.pop_front();
-  }
-  return true;
-}
-
-void HttpServer::Respond(Connection& connection, const HttpRequest& request) {
+void HttpServer::Respond(HttpConnection& connection, const HttpRequest& request) {
   ++counts_.requests;
   ++connection.requests;
   HttpResponse response;
@@ -224,7 +162,7 @@ void HttpServer::Respond(Connection& connection, const HttpRequest& request) {
   }
   const bool keep = request.keep_alive && (config_.requests_per_connection == 0 ||
                                            connection.requests < config_.requests_per_connection);
-  connection.out.push_back(Shared(RenderHead(response, keep && !response.event_stream)));
+  connection.Say(RenderHead(response, keep && !response.event_stream));
   if (response.body && !response.body->empty() && request.method != "HEAD")
     connection.out.push_back(response.body);
   connection.request_since = 0;
@@ -232,21 +170,21 @@ void HttpServer::Respond(Connection& connection, const HttpRequest& request) {
   connection.close_after = !keep;
 }
 
-void HttpServer::Refuse(Connection& connection, const HttpRefusal& refusal) {
+void HttpServer::Refuse(HttpConnection& connection, const HttpRefusal& refusal) {
   ++counts_.refused;
   HttpResponse response{.status = refusal.status, .content_type = "application/json"};
   response.headers = {{"X-Content-Type-Options", "nosniff"}, {"Cache-Control", "no-store"}};
   response.body = Shared(nlohmann::json{{"error", refusal.error}}.dump());
-  connection.out.push_back(Shared(RenderHead(response, false)));
+  connection.Say(RenderHead(response, false));
   connection.out.push_back(response.body);
   connection.close_after = true;
 }
 
-void HttpServer::BecomeStream(Connection& connection) {
+void HttpServer::BecomeStream(HttpConnection& connection) {
   if (streams() >= config_.streams) {
-    Connection* oldest = nullptr;
+    HttpConnection* oldest = nullptr;
     for (auto& [id, other] : connections_) {
-      if (other->state == Connection::State::kStream && !other->close_after &&
+      if (other->state == HttpConnection::State::kStream && !other->close_after &&
           (oldest == nullptr || other->opened < oldest->opened))
         oldest = other.get();
     }
@@ -256,16 +194,16 @@ void HttpServer::BecomeStream(Connection& connection) {
       Update(*oldest);
     }
   }
-  connection.state = Connection::State::kStream;
+  connection.state = HttpConnection::State::kStream;
   connection.opened = steady_.Now();
   connection.stale = latest_ != nullptr;
 }
 
 /// A last word, if the socket takes it; nothing else is said on it.
-void HttpServer::EndStream(Connection& connection, const std::string& event,
+void HttpServer::EndStream(HttpConnection& connection, const std::string& event,
                            const std::string& error) {
-  connection.out.push_back(Shared(RenderEvent(event, nlohmann::json{{"error", error}}.dump())));
-  connection.state = Connection::State::kOpen;
+  connection.Say(RenderEvent(event, nlohmann::json{{"error", error}}.dump()));
+  connection.state = HttpConnection::State::kOpen;
   connection.close_after = true;
 }
 
@@ -273,7 +211,7 @@ void HttpServer::Publish(const std::string& event, const std::string& data) {
   latest_ = Shared(RenderEvent(event, data));
   std::vector<uint64_t> ended;
   for (auto& [id, connection] : connections_) {
-    if (connection->state != Connection::State::kStream) continue;
+    if (connection->state != HttpConnection::State::kStream) continue;
     connection->stale = true;
     if (!Advance(*connection)) {
       ended.push_back(id);
@@ -285,7 +223,7 @@ void HttpServer::Publish(const std::string& event, const std::string& data) {
 }
 
 /// Tells epoll what the connection waits for.
-void HttpServer::Update(Connection& connection) {
+void HttpServer::Update(HttpConnection& connection) {
   uint32_t wanted = 0;
   if (!connection.ended && !connection.parser.full()) wanted |= EPOLLIN | EPOLLRDHUP;
   if (connection.sending()) wanted |= EPOLLOUT;
@@ -295,7 +233,7 @@ void HttpServer::Update(Connection& connection) {
   epoll_ctl(epoll_, EPOLL_CTL_MOD, connection.fd, &event);
 }
 
-void HttpServer::Close(Connection& connection) {
+void HttpServer::Close(HttpConnection& connection) {
   close(connection.fd);
   connections_.erase(connection.id);
 }
@@ -303,25 +241,25 @@ void HttpServer::Close(Connection& connection) {
 void HttpServer::Sweep() {
   const Utime now = steady_.Now();
   for (auto next = connections_.begin(); next != connections_.end();) {
-    Connection& connection = *(next++)->second;
+    HttpConnection& connection = *(next++)->second;
     SweepOne(connection, now);
   }
 }
 
-void HttpServer::SweepOne(Connection& connection, Utime now) {
+void HttpServer::SweepOne(HttpConnection& connection, Utime now) {
   if (connection.sending()) {
     if (now - connection.moved > config_.write_us) Close(connection);
     return;
   }
   switch (connection.state) {
-    case Connection::State::kStream:
+    case HttpConnection::State::kStream:
       if (now - connection.told < config_.heartbeat_us) return;
-      connection.out.push_back(Shared(": heartbeat\n\n"));
+      connection.Say(": heartbeat\n\n");
       return Handle(connection, 0);
-    case Connection::State::kLingering:
+    case HttpConnection::State::kLingering:
       if (now - connection.moved > config_.linger_us) Close(connection);
       return;
-    case Connection::State::kOpen:
+    case HttpConnection::State::kOpen:
       if (connection.request_since == 0) {
         if (now - connection.moved > config_.idle_us) Close(connection);
       } else if (now - connection.request_since > config_.request_us) {
@@ -334,7 +272,7 @@ void HttpServer::SweepOne(Connection& connection, Utime now) {
 
 size_t HttpServer::streams() const {
   return static_cast<size_t>(std::ranges::count_if(connections_, [](const auto& entry) {
-    return entry.second->state == Connection::State::kStream;
+    return entry.second->state == HttpConnection::State::kStream;
   }));
 }
 

@@ -6,14 +6,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "services/base/run_loop.h"
-#include "services/ui_bridge/web/http_message.h"
+#include "services/ui_bridge/web/http_connection.h"
 
 namespace beckon::ui_bridge::web {
 
@@ -58,25 +57,20 @@ class HttpServer {
   const HttpServerCounts& counts() const { return counts_; }
 
  private:
-  using Bytes = std::shared_ptr<const std::string>;
-  struct Connection;
-
   void Serve();
   void Accept();
   void MakeRoom();
-  void Handle(Connection& connection, uint32_t events);
-  /// Each returns false where the connection is over.
-  bool Read(Connection& connection);
-  bool Advance(Connection& connection);
-  bool Write(Connection& connection);
-  void Respond(Connection& connection, const HttpRequest& request);
-  void Refuse(Connection& connection, const HttpRefusal& refusal);
-  void BecomeStream(Connection& connection);
-  void EndStream(Connection& connection, const std::string& event, const std::string& error);
-  void Update(Connection& connection);
-  void Close(Connection& connection);
+  void Handle(HttpConnection& connection, uint32_t events);
+  /// False where the connection is over.
+  bool Advance(HttpConnection& connection);
+  void Respond(HttpConnection& connection, const HttpRequest& request);
+  void Refuse(HttpConnection& connection, const HttpRefusal& refusal);
+  void BecomeStream(HttpConnection& connection);
+  void EndStream(HttpConnection& connection, const std::string& event, const std::string& error);
+  void Update(HttpConnection& connection);
+  void Close(HttpConnection& connection);
   void Sweep();
-  void SweepOne(Connection& connection, Utime now);
+  void SweepOne(HttpConnection& connection, Utime now);
 
   const HttpServerConfig config_;
   const int listening_;
@@ -87,8 +81,8 @@ class HttpServer {
   bool accepting_ = true;
   RunLoop::TimerId sweep_ = 0;
   uint64_t ids_ = 0;
-  std::map<uint64_t, std::unique_ptr<Connection>> connections_;  // by id
-  Bytes latest_;                                                 // event, as it is sent
+  std::map<uint64_t, std::unique_ptr<HttpConnection>> connections_;  // by id
+  HttpConnection::Bytes latest_;                                     // event, as it is sent
   HttpServerCounts counts_;
 };
 

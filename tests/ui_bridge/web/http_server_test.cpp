@@ -50,6 +50,7 @@ class HttpServerTest : public ::testing::Test {
       thread_.join();
     }
     server_.reset();
+    thread_ = {};
   }
 
   HttpResponse Respond(const HttpRequest& request) {
@@ -228,6 +229,10 @@ TEST_F(HttpServerTest, TellsStreamsTheLatestAtOnceThenEveryChangeAndThatItIsAliv
 }
 
 TEST_F(HttpServerTest, TellsASlowStreamTheLatestOnly) {
+  TearDown();
+  HttpServerConfig patient = Quick();
+  patient.write_us = 20 * kSecond;
+  Start(patient);
   Stream stream(port_);
   ASSERT_EQ(stream.head().status, 200);
   const std::string padding(200'000, 'x');
