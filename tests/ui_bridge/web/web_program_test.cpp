@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "services/ui_bridge/web/listen_socket.h"
 #include "tests/ui_bridge/web/http_client.h"
@@ -144,6 +145,24 @@ TEST(WebProgram, AsksForATokenWhereOthersReachIt) {
   std::string kept;
   std::ifstream(folder.data() + "/token") >> kept;
   EXPECT_EQ(kept, token);
+}
+
+TEST(WebProgram, TakesEverySettingThatIsWrittenDownAndHasItsDefault) {
+  const WebFolder folder;
+  std::ifstream shipped(std::string(BECKON_SOURCE_DIR) + "/services/ui_bridge/web/web.toml");
+  std::string config;
+  int keys = 0;
+  for (std::string line; std::getline(shipped, line);) {
+    // Those that say where things are were written above.
+    const bool here = line.starts_with("# page") || line.starts_with("# data");
+    if (!std::regex_match(line, std::regex("# [a-z_]+ = .*")) || here) continue;
+    config += line.substr(2) + "\n";
+    ++keys;
+  }
+  EXPECT_EQ(keys, 10);
+  Program program(folder, config, {"--check-config"});
+  const std::string said = program.Until("\n");
+  EXPECT_EQ(program.Wait(), 0) << said;
 }
 
 TEST(WebProgram, RefusesWrongSettingsInOneLine) {
