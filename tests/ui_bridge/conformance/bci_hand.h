@@ -22,7 +22,7 @@ class BciHand final : public Hand {
   }
 
   void Begin(const HandSetup& setup) override {
-    setup_ = setup;
+    setup_.emplace(setup);
     setup_->bus.Subscribe<msg::Stimulus>([this](const msg::Stimulus& stimulus) {
       if (stimulus.device != setup_->device) return;
       stimulus_ = stimulus;
