@@ -14,6 +14,7 @@ constexpr double kEverything_dB = 100;
 constexpr int kSlack = 3;         // frames by which levels may be misaligned
 constexpr int kLongestTail = 40;  // frames
 constexpr double kMostSpread_dB = 8;
+constexpr double kMostDeviation_dB = 25;  // of a frame: more is somebody talking over it
 
 double Median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
@@ -70,7 +71,8 @@ double EchoGate::Expected_dB(int64_t now) const {
 }
 
 void EchoGate::Observe(int64_t now, double level_dB, double floor_dB) {
-  if (!Playing(now)) return;
+  // The echo may not have come yet: quiet frames would teach that there is none.
+  if (!Playing(now) || now >= end_ || now - start_ < config_.most_delay) return;
   // Frames that are no louder than the room say only that the echo is soft.
   heard_.push_back({now - start_, std::max(level_dB, floor_dB)});
   if (heard_.size() > static_cast<size_t>(config_.learnt_frames)) heard_.pop_front();
@@ -93,12 +95,15 @@ void EchoGate::Learn() {
     }
     if (differences.size() < static_cast<size_t>(config_.fewest_frames)) continue;
     const double middle = Median(differences);
-    for (double& difference : differences) difference = std::abs(difference - middle);
-    const double spread = Median(differences);
-    if (least && spread >= *least) continue;
-    least = spread;
+    double deviation = 0;
+    for (double& difference : differences) {
+      difference = std::min(std::abs(difference - middle), kMostDeviation_dB);
+      deviation += difference / static_cast<double>(differences.size());
+    }
+    if (least && deviation >= *least) continue;
+    least = deviation;
     gain_dB_ = middle;
-    spread_dB_ = std::min(spread, kMostSpread_dB);
+    spread_dB_ = std::min(Median(differences), kMostSpread_dB);
     delay_ = delay;
   }
 }

@@ -17,7 +17,7 @@ struct EchoConfig {
   double margin_dB = 7;     // louder than the expected echo by so much is no echo
   double tail_dB = 1.5;     // by which an echo fades each frame once its sound is over
   int most_delay = 50;      // frames, between playing and hearing
-  int fewest_frames = 25;   // loud ones, to learn from; until then nothing stands out
+  int fewest_frames = 40;   // loud ones, to learn from; until then nothing stands out
   int learnt_frames = 120;  // the latest ones that are learnt from
   double loud_dB = 25;      // below the loudest of the prompt: what is softer teaches nothing
 };

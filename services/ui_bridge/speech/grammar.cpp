@@ -23,8 +23,12 @@ void AddRivals(Grammar& grammar, const Lexicon& lexicon, const GrammarConfig& co
     for (const auto& near : lexicon.Near(sounds, config.rivals_per_phrase)) add(near);
   }
   for (const auto& word : config.other_words) {
-    if (const auto said = lexicon.Say(word)) {
-      for (const auto& sounds : *said) add(sounds);
+    const auto said = lexicon.Say(word);
+    if (!said) continue;
+    for (const auto& sounds : *said) {
+      const bool phrase = std::ranges::any_of(
+          grammar.phrases, [&](const Phrase& p) { return p.command && p.sounds == sounds; });
+      if (!phrase) grammar.other_words.push_back(sounds);
     }
   }
 }

@@ -19,6 +19,7 @@ struct Phrase {
 struct Grammar {
   std::vector<Command> commands;
   std::vector<Phrase> phrases;
+  std::vector<Pronunciation> other_words;  // that sentences may be made of, and no phrases
 };
 
 struct GrammarConfig {

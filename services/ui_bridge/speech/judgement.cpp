@@ -114,6 +114,9 @@ Features Measure(const Acoustics& acoustics, const Grammar& grammar, size_t phra
       BestScore(acoustics, grammar,
                 [&](const Phrase& other) { return other.command && other.command != command; }),
       frames);
+  std::optional<double> sentence;
+  if (acoustics.other_words) sentence = Total(*acoustics.other_words);
+  features[kSentence] = Margin(score, sentence, frames);
   features[kHeardApart] = Distance(Sounds(acoustics.free), grammar.phrases[phrase].sounds) / n;
   features[kLength] = std::log(n);
   return features;

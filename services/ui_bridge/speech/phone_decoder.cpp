@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -18,6 +19,10 @@ constexpr char kFree[] = "free";
 /// A unit of acoustic scores: 2^10 steps of the logarithm to base 1.0001.
 constexpr double kNatsPerUnit = 1024 * 1e-4;
 constexpr int kFewestFrames = 10;
+constexpr int kScoreShift = 10;  // of scores against the logarithm
+constexpr double kWordCost = 4;  // nats, of each word of a sequence
+constexpr int kStart = 0;        // states of the grammar
+constexpr int kAnyWord = 1;
 
 using Cepstrum = std::array<mfcc_t, 13>;
 
@@ -25,10 +30,10 @@ using Cepstrum = std::array<mfcc_t, 13>;
 constexpr Cepstrum kUsualMean = {41.00F, -5.29F, -0.12F, 5.09F,  2.48F,  -4.07F, -1.37F,
                                  -1.78F, -5.08F, -2.05F, -6.45F, -1.42F, 1.17F};
 
-/// Takes away what the microphone and the room add to all frames: their mean, drawn towards the usual
-/// one, since a word is too short to have a mean of its own.
+/// Takes away what the microphone and the room add to all frames: their mean, drawn towards the
+/// usual one, since a word is too short to have a mean of its own.
 void SubtractMean(std::vector<Cepstrum>& cepstra) {
-  const float kUsualFrames = getenv("CW") ? atof(getenv("CW")) : 0;
+  constexpr float kUsualFrames = 100;
   Cepstrum mean{};
   const auto n = static_cast<float>(cepstra.size()) + kUsualFrames;
   for (size_t i = 0; i < mean.size(); ++i) {
@@ -188,25 +193,33 @@ Result<std::unique_ptr<PhoneDecoder>> PhoneDecoder::Open(const std::string& mode
   return std::unique_ptr<PhoneDecoder>(new PhoneDecoder(std::move(state)));
 }
 
-Status PhoneDecoder::SetPhrases(const std::vector<Pronunciation>& phrases) {
-  size_t n_states = 1;
-  for (const auto& phrase : phrases) n_states += phrase.size();
-  fsg_model_t* grammar =
-      fsg_model_init(kPhrases, ps_get_logmath(state_->decoder), 1.0F, static_cast<int32>(n_states));
-  std::vector<int> ends;
-  int next = 1;
-  for (const auto& phrase : phrases) {
-    int from = 0;
-    for (const Phone phone : phrase) {
-      fsg_model_trans_add(grammar, from, next, 0,
-                          fsg_model_word_add(grammar, WordOf(phone).c_str()));
-      from = next++;
-    }
-    ends.push_back(from);
+Status PhoneDecoder::SetPhrases(const std::vector<Pronunciation>& phrases,
+                                const std::vector<Pronunciation>& words) {
+  size_t n_states = 2;
+  for (const auto* some : {&phrases, &words}) {
+    for (const auto& sounds : *some) n_states += sounds.size();
   }
-  grammar->start_state = 0;
-  grammar->final_state = ends.empty() ? 0 : ends.front();
+  logmath_t* logs = ps_get_logmath(state_->decoder);
+  fsg_model_t* grammar = fsg_model_init(kPhrases, logs, 1.0F, static_cast<int32>(n_states));
+  int next = 2;
+  const auto add = [&](int from, const Pronunciation& sounds, int to, int32 cost) {
+    for (size_t i = 0; i < sounds.size(); ++i) {
+      const int end = i + 1 == sounds.size() && to >= 0 ? to : next++;
+      fsg_model_trans_add(grammar, from, end, i == 0 ? cost : 0,
+                          fsg_model_word_add(grammar, WordOf(sounds[i]).c_str()));
+      from = end;
+    }
+    return from;
+  };
   // No silence: it fits speech nearly as well as phones do, and would explain away what was said.
+  std::vector<int> ends;
+  for (const auto& phrase : phrases) ends.push_back(add(kStart, phrase, -1, 0));
+  const auto cost = static_cast<int32>(-kWordCost / std::log(logmath_get_base(logs)));
+  for (const auto& word : words) add(kAnyWord, word, kAnyWord, cost >> kScoreShift);
+  fsg_model_null_trans_add(grammar, kStart, kAnyWord, 0);
+  glist_free(fsg_model_null_trans_closure(grammar, nullptr));
+  grammar->start_state = kStart;
+  grammar->final_state = kAnyWord;
   if (ps_set_fsg(state_->decoder, kPhrases, grammar) != 0) {
     fsg_model_free(grammar);
     return Error{"PocketSphinx refuses a grammar of " + std::to_string(phrases.size()) +
@@ -233,6 +246,8 @@ Acoustics PhoneDecoder::Decode(std::span<const int16_t> samples, int begin, int 
   acoustics.frames = acoustics.free.empty() ? 0 : acoustics.free.back().end;
   if (state_->grammar == nullptr) return acoustics;
   state_->Run(kPhrases, cepstra);
+  state_->grammar->final_state = kAnyWord;
+  if (auto words = state_->Read(); !words.empty()) acoustics.other_words = std::move(words);
   // The search keeps the history of every state, and looks for the best path to the final one.
   // Where no path ends there it gives another one.
   for (size_t i = 0; i < state_->ends.size(); ++i) {

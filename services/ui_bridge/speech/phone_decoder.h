@@ -29,8 +29,10 @@ class PhoneDecoder {
   static Result<std::unique_ptr<PhoneDecoder>> Open(const std::string& model_folder);
   ~PhoneDecoder();
 
-  /// What Decode compares sound with.
-  Status SetPhrases(const std::vector<Pronunciation>& phrases);
+  /// What Decode compares sound with:
+  /// and, as Acoustics::other_words, any sequence of `words`.
+  Status SetPhrases(const std::vector<Pronunciation>& phrases,
+                    const std::vector<Pronunciation>& words);
   /// All phrases are aligned in one pass, a second one finds the free phones. Takes about a tenth
   /// of the sound's duration. `samples` at kSampleRate with some quiet around what was said, which
   /// is used for normalising; only frames `begin` .. `end` (not included) are compared, since

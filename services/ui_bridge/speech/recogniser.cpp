@@ -41,7 +41,7 @@ Status Recogniser::Expect(const std::vector<Command>& commands) {
   if (!grammar) return grammar.error();
   std::vector<Pronunciation> phrases;
   for (const auto& phrase : grammar->phrases) phrases.push_back(phrase.sounds);
-  if (auto set = decoder_->SetPhrases(phrases); !set) return set;
+  if (auto set = decoder_->SetPhrases(phrases, grammar->other_words); !set) return set;
   grammar_ = *std::move(grammar);
   return {};
 }
