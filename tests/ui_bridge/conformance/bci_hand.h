@@ -12,7 +12,7 @@
 
 namespace beckon::ui_bridge::conformance {
 
-class BciHand final : public Hand {
+class BciHand : public Hand {
  public:
   std::string front_end() const override { return "bci"; }
   std::string config() const override {
@@ -40,6 +40,11 @@ class BciHand final : public Hand {
   bool Stop() override { return Want({"STOP"}); }
   bool Resume() override { return Want({"Go on", "Yes, go on"}); }
   bool Undo() override { return Want({"Undo"}); }
+
+ protected:
+  /// Probability of the class that is meant, and how long a trial takes.
+  virtual double sureness() const { return 0.9; }
+  virtual Utime trial_us() const { return 1; }
 
  private:
   bool Want(const std::vector<std::string>& labels) {
@@ -73,9 +78,11 @@ class BciHand final : public Hand {
     decoding.decoder = "hand";
     decoding.device = stimulus_->device;
     decoding.trial = stimulus_->trial;
-    decoding.probabilities.assign(classes, 0.1 / static_cast<double>(classes - 1));
-    decoding.probabilities[*wanted] = 0.9;
-    if (!setup_->bus.Publish(decoding)) throw std::runtime_error("a DECODING was not sent");
+    decoding.probabilities.assign(classes, (1 - sureness()) / static_cast<double>(classes - 1));
+    decoding.probabilities[*wanted] = sureness();
+    setup_->loop.After(trial_us(), [this, decoding] {
+      if (!setup_->bus.Publish(decoding)) throw std::runtime_error("a DECODING was not sent");
+    });
   }
 
   std::optional<HandSetup> setup_;

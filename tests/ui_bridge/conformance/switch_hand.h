@@ -85,18 +85,23 @@ class SwitchHand : public Hand {
     const bool news = !lit_ || lit.options != lit_->options || lit.controls != lit_->controls ||
                       lit.query_id != lit_->query_id || lit.paused != lit_->paused;
     lit_ = lit;
-    if (!news && pressed_for_this_) return;
-    pressed_for_this_ = Wanted(lit) || (lit.paused && (option_ >= 0 || !control_.empty()));
-    if (!pressed_for_this_) return;
-    if (lit.options.size() == 1 && control_.empty()) option_ = -1;
+    if (!news && acted_on_this_) return;
+    const bool wants = option_ >= 0 || !control_.empty();
+    acted_on_this_ = wants && Act(Wanted(lit) || lit.paused);
+    if (!acted_on_this_) return;
+    if (lit.options.size() == 1 && control_.empty() && Wanted(lit) && !lit.paused) option_ = -1;
+  }
+
+ protected:
+  /// Does what the method asks for, now that what is wanted is lit or is not; false: nothing.
+  virtual bool Act(bool wanted) {
+    if (!wanted) return false;
+    PressSoon();
+    return true;
+  }
+  void PressSoon() {
     setup_->loop.After(reaction_us(), [this] { Press(press_us()); });
   }
-
-  void Press(Utime length_us) {
-    Send(1);
-    setup_->loop.After(length_us, [this] { Send(0); });
-  }
-
   void Send(int value) {
     for (const uint16_t type : {EV_KEY, EV_SYN}) {
       input_event event{};
@@ -107,12 +112,18 @@ class SwitchHand : public Hand {
         throw std::runtime_error("the switch is stuck");
     }
   }
+  std::optional<HandSetup> setup_;
+
+ private:
+  void Press(Utime length_us) {
+    Send(1);
+    setup_->loop.After(length_us, [this] { Send(0); });
+  }
 
   const std::string path_ = "/tmp/beckon-switch-" + std::to_string(getpid());
   int fd_ = -1;
-  std::optional<HandSetup> setup_;
   std::optional<msg::Highlight> lit_;
-  bool pressed_for_this_ = false;
+  bool acted_on_this_ = false;
   int64_t query_id_ = 0;
   int option_ = -1;      // wanted; -1 = none
   std::string control_;  // wanted; empty = none

@@ -129,8 +129,8 @@ class SpokenTest : public ::testing::Test {
     auto factory = SpeechFactory("[speech]\ninput = \"" + (folder_ / "mic").string() +
                                  "\"\nask_again_s = 0\nplay = " + play + "\n");
     ASSERT_TRUE(factory);
-    Service service({.user = "ann", .device = "", .exit_after_sessions = 1}, *bus_, loop_, clock_,
-                    steady_);
+    Service service({.user = "ann", .device = "", .exit_after_sessions = 1, .listen_us = 50'000},
+                    *bus_, loop_, clock_, steady_);
     const auto added = service.Add(*factory);
     ASSERT_TRUE(added) << added.error().message;
     service.Begin();

@@ -71,8 +71,9 @@ class FrontEndSwitchTest : public ::testing::Test {
     factory->Configure(table->Section("switch"));
     ASSERT_TRUE(table->Finish()) << table->Finish().error().message;
     service_ = std::make_unique<Service>(
-        ServiceConfig{.user = "ann", .device = "sw", .exit_after_sessions = sessions}, *bus_, loop_,
-        clock_, steady_);
+        ServiceConfig{
+            .user = "ann", .device = "sw", .exit_after_sessions = sessions, .listen_us = 50'000},
+        *bus_, loop_, clock_, steady_);
     const Status added = service_->Add(*factory);
     ASSERT_TRUE(added) << added.error().message;
     service_->Begin();

@@ -1,5 +1,5 @@
 #include "tests/ui_bridge/conformance/conformance.h"
-#include "tests/ui_bridge/web/web_hand.h"
+#include "tests/ui_bridge/conformance/web_hand.h"
 
 namespace beckon::ui_bridge::conformance {
 
