@@ -171,8 +171,10 @@ class SpeechFrontEnd final : public FrontEnd {
     if (decision.kind == Decision::Kind::kCommand) Do(decision);
   }
 
+  /// What is stopped already is not stopped again: a word is heard as it begins and once it is
+  /// over.
   void Stop() {
-    setup_.sink.Request(Request::kRequestStop);
+    if (!stopped_) setup_.sink.Request(Request::kRequestStop);
     speaker_.Hush();
     ++understood_;
   }

@@ -65,7 +65,11 @@ Result<Grammar> BuildGrammar(const std::vector<Command>& commands, const Lexicon
     for (const auto& phrase : commands[i].phrases) {
       auto ways = Pronounce(phrase, lexicon);
       if (!ways) return Error{std::string(Name(commands[i].kind)) + ": " + ways.error().message};
-      for (auto& sounds : *ways) grammar.phrases.push_back({i, std::move(sounds)});
+      for (auto& sounds : *ways) {
+        auto other = WithoutR(sounds);
+        if (other != sounds) grammar.phrases.push_back({i, std::move(other)});
+        grammar.phrases.push_back({i, std::move(sounds)});
+      }
     }
   }
   if (grammar.phrases.empty()) return Error{"the grammar has no phrase"};

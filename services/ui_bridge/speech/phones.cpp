@@ -106,6 +106,19 @@ Result<Pronunciation> FromEspeak(const std::string& mnemonics) {
   return ParsePronunciation(phones);
 }
 
+Pronunciation WithoutR(const Pronunciation& pronunciation) {
+  static const Phone er = *PhoneFromName("ER");
+  static const Phone r = *PhoneFromName("R");
+  static const Phone ah = *PhoneFromName("AH");
+  Pronunciation result;
+  for (size_t i = 0; i < pronunciation.size(); ++i) {
+    const bool before_vowel = i + 1 < pronunciation.size() && IsVowel(pronunciation[i + 1]);
+    if (pronunciation[i] == r && !before_vowel && i > 0) continue;
+    result.push_back(pronunciation[i] == er && !before_vowel ? ah : pronunciation[i]);
+  }
+  return result;
+}
+
 std::string ToText(const Pronunciation& pronunciation) {
   std::string text;
   for (const Phone phone : pronunciation) {

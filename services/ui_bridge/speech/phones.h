@@ -33,6 +33,8 @@ Result<Pronunciation> ParsePronunciation(const std::string& text);
 /// What `espeak-ng -q -x --sep=_` prints for a word: "s_t_'0_p". An error names a sound that is
 /// not English.
 Result<Pronunciation> FromEspeak(const std::string& mnemonics);
+/// As it is said where "r" is silent after vowels: "N AH M B ER" becomes "N AH M B AH".
+Pronunciation WithoutR(const Pronunciation& pronunciation);
 /// "S T AA P"
 std::string ToText(const Pronunciation& pronunciation);
 

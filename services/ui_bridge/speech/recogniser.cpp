@@ -66,9 +66,7 @@ Acoustics Recogniser::Listen(const Segment& segment) {
                           segment.loud_end + kMargin);
 }
 
-Heard Recogniser::Hear(const Segment& segment) {
-  return Judge(Listen(segment), grammar_, config_.judgement);
-}
+Heard Recogniser::Hear(const Segment& segment) { return Weigh(Listen(segment)); }
 
 Result<JudgementModel> LoadJudgement(const std::string& path) {
   auto table = ConfigTable::Load(path);

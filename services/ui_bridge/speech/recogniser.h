@@ -34,6 +34,9 @@ class Recogniser {
   Heard Hear(const Segment& segment);
   /// What Hear judges; for those who fit a judgement.
   Acoustics Listen(const Segment& segment);
+  Heard Weigh(const Acoustics& acoustics) const {
+    return Judge(acoustics, grammar_, config_.judgement);
+  }
 
   const Grammar& grammar() const { return grammar_; }
 

@@ -39,7 +39,12 @@ class SpeechHand : public Hand {
   double patience_s() const override { return 20; }
 
   void Begin(const HandSetup& setup) override {
+    setup_.emplace(setup);
     setup.loop.Every(kBeat_us, [this] { Beat(); });
+    setup.bus.Subscribe<msg::Answer>([this](const msg::Answer&) { unheard_.clear(); });
+    setup.bus.Subscribe<msg::Session>([this](const msg::Session& session) {
+      if (session.kind < msg::SessionKind::kIdle) unheard_.clear();
+    });
   }
   void Start() override { Say("start"); }
   size_t Choose(const msg::Query& query, size_t option) override {
@@ -52,7 +57,19 @@ class SpeechHand : public Hand {
 
  protected:
   const std::string& path() const { return path_; }
+  /// Says it again where it leads to nothing, as a person does.
   bool Say(const std::string& text) {
+    Utter(text);
+    unheard_ = text;
+    setup_->loop.After(kPatience_us, [this, text] {
+      if (unheard_ == text) Utter(text);
+      unheard_.clear();
+    });
+    return true;
+  }
+
+ private:
+  void Utter(const std::string& text) {
     auto known = said_.find(text);
     if (known == said_.end()) {
       auto wave = speech::SpeakToWave({}, text);
@@ -62,10 +79,9 @@ class SpeechHand : public Hand {
     // A breath, so that what was said before has an end.
     to_say_.insert(to_say_.end(), kBreathSamples, 0);
     for (const int16_t x : known->second) to_say_.push_back(static_cast<int16_t>(x / 2));
-    return true;
   }
 
- private:
+  static constexpr Utime kPatience_us = 6 * kSecond;
   static constexpr Utime kBeat_us = 50'000;
   static constexpr size_t kBeatSamples = 800;  // at 16 kHz
   static constexpr size_t kBreathSamples = 16'000;
@@ -84,6 +100,8 @@ class SpeechHand : public Hand {
 
   const std::string path_ = "/tmp/beckon-mouth-" + std::to_string(getpid());
   int microphone_ = -1;
+  std::optional<HandSetup> setup_;
+  std::string unheard_;  // what was said, and led to nothing yet
   std::mt19937_64 random_{1};
   std::deque<int16_t> to_say_;
   std::map<std::string, std::vector<int16_t>> said_;

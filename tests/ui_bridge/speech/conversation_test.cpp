@@ -69,9 +69,19 @@ class SpokenTest : public ::testing::Test {
     [[maybe_unused]] const auto written = write(microphone_, beat.data(), 2 * beat.size());
   }
 
-  /// Says it `after_us` from now.
-  void Say(const std::string& text, Utime after_us) {
-    auto wave = speech::SpeakToWave({}, text);
+  /// Says it `after_us` from now, and in another voice again until `id` is answered:
+  /// what is not understood is asked again, and people do repeat themselves.
+  void Answer(int64_t id, const std::string& text, Utime after_us, size_t turn = 0) {
+    static const std::vector<std::string> voices = {"en-us", "en-us+f2", "en-gb", "en-us+m7"};
+    loop_.After(after_us, [this, id, text, turn] {
+      if (answers_.contains(id)) return;
+      Say(text, 1, voices[turn % voices.size()]);
+      Answer(id, text, 5 * kSecond, turn + 1);
+    });
+  }
+
+  void Say(const std::string& text, Utime after_us, const std::string& voice = "en-us") {
+    auto wave = speech::SpeakToWave({.voice = voice}, text);
     ASSERT_TRUE(wave) << wave.error().message;
     const auto samples = speech::AtSampleRate(*wave);
     loop_.After(after_us, [this, samples] {
@@ -156,12 +166,12 @@ class SpokenTest : public ::testing::Test {
 TEST_F(SpokenTest, ALedConversationEndsInWhatTheMouthSaid) {
   begun_ = [this] {
     Ask(1, {"Yes", "No"}, msg::QueryKind::kFull);
-    Say("no", 3 * kSecond);
+    Answer(1, "no", 3 * kSecond);
   };
   answered_ = [this](int64_t id) {
     if (id == 1) {
       Ask(2, {"Open the carton", "Squeeze the tube", "None of these"}, msg::QueryKind::kChoice);
-      Say("open the carton", 2 * kSecond);
+      Answer(2, "open the carton", 2 * kSecond);
     } else {
       Announce(msg::SessionKind::kConfirmed, "Open the carton.");
     }
@@ -197,7 +207,7 @@ TEST_F(SpokenTest, OtherSpeechIsNoAnswer) {
     Ask(1, {"Yes", "No"}, msg::QueryKind::kFull);
     Say("the weather is fine today", 2 * kSecond);
     Say("I would like some tea please", 6 * kSecond);
-    Say("yes", 12 * kSecond);
+    Answer(1, "yes", 12 * kSecond);
   };
   answered_ = [this](int64_t) { Announce(msg::SessionKind::kConfirmed, "Done."); };
   Run("[\"true\"]");

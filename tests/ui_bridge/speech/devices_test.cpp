@@ -189,8 +189,11 @@ TEST(Configuration, TheShippedDefaultsCanBePronounced) {
   const auto right = CheckWords({});
   EXPECT_TRUE(right) << right.error().message;
   SpeechConfig config;
-  config.words.yes = {"\xff\xfe"};
-  EXPECT_FALSE(CheckWords(config));
+  config.words.yes = {"qqqxz"};
+  config.speaker.espeak.program = "no-such-program-of-beckon";
+  const auto wrong = CheckWords(config);
+  ASSERT_FALSE(wrong);
+  EXPECT_THAT(wrong.error().message, HasSubstr("qqqxz"));
 }
 
 }  // namespace

@@ -82,6 +82,13 @@ TEST(Phones, ComeFromEspeaksMnemonics) {
   EXPECT_FALSE(FromEspeak(""));
 }
 
+TEST(Phones, AreSaidWithoutRToo) {
+  EXPECT_EQ(WithoutR(Say("N AH M B ER")), Say("N AH M B AH"));
+  EXPECT_EQ(WithoutR(Say("S T AA R T")), Say("S T AA T"));
+  EXPECT_EQ(WithoutR(Say("R IH P IY T")), Say("R IH P IY T"));
+  EXPECT_EQ(WithoutR(Say("TH R IY")), Say("TH R IY"));
+}
+
 TEST(Phones, LieFurtherApartTheLessTheyAreAlike) {
   EXPECT_EQ(Distance(Say("S T AA P"), Say("S T AA P")), 0);
   EXPECT_DOUBLE_EQ(Distance(Say("S T AA P"), Say("S T AA K")), kAlike);
