@@ -37,19 +37,51 @@ test('axe sees a fault that is put in', async () => {
   });
 });
 
-for (const [size, pixels] of Object.entries(SIZES)) {
-  test(`every target is at least 44 px, and nothing scrolls sideways (${size}, also with twice the text)`, async () => {
-    for (const name of ['question', 'why', 'history', 'user', 'settings', 'resume', 'scanning']) {
-      await inView(it, name, { size: pixels }, async (page) => {
+for (const name of ['question', 'why', 'history', 'user', 'settings', 'resume', 'scanning']) {
+  test(`every target is at least 44 px, and nothing scrolls sideways, also with twice the text (${name})`, async () => {
+    await inView(it, name, {}, async (page) => {
+      for (const [width, height] of Object.values(SIZES)) {
+        await page.setViewportSize({ width, height });
         for (const text of ['100%', '200%']) {
           await page.evaluate((value) => (document.documentElement.style.fontSize = value), text);
-          assert.deepEqual(await smallTargets(page), [], `${name} ${text}`);
-          assert.deepEqual(await tooWide(page), [], `${name} ${text}`);
+          assert.deepEqual(await smallTargets(page), [], `${width} px, text ${text}`);
+          assert.deepEqual(await tooWide(page), [], `${width} px, text ${text}`);
         }
-      });
-    }
+      }
+    });
   });
 }
+
+/** Contrast of two colours #rrggbb (WCAG 2.2, "contrast ratio"). */
+function contrast(a, b) {
+  const luminance = (colour) => {
+    const [r, g, blue] = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16) / 255)
+      .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * blue;
+  };
+  const [light, dark] = [luminance(a), luminance(b)].sort((x, y) => y - x);
+  return (light + 0.05) / (dark + 0.05);
+}
+
+test('text has a contrast of 4.5, in the theme for it 7, and borders and signs have 3', () => {
+  const css = fs.readFileSync(path.join(PAGE, 'theme.css'), 'utf8');
+  const themes = [...css.matchAll(/^:root(?:\[data-theme="(\w+)"\])? \{([^}]*)\}/gm)].map(([, name, body]) => [
+    name ?? 'light', Object.fromEntries([...body.matchAll(/--([\w-]+): (#\w{6});/g)].map((match) => match.slice(1)))]);
+  assert.deepEqual(themes.map(([name]) => name), ['light', 'dark', 'contrast']);
+  const texts = [['text', 'back'], ['text', 'card'], ['soft', 'back'], ['soft', 'card'], ['on-accent', 'accent'], ['yes', 'back'],
+    ['no', 'back'], ['on-stop', 'stop'], ['warn', 'warn-back'], ['warn', 'card'], ['text', 'lit-back'], ['accent', 'back']];
+  const signs = [['line', 'back'], ['line', 'card'], ['focus', 'back'], ['focus', 'card'], ['lit', 'back'], ['accent', 'card'], ['warn', 'back']];
+  for (const [name, colours] of themes) {
+    const check = (pairs, least) => {
+      for (const [a, b] of pairs) {
+        const ratio = contrast(colours[a], colours[b]);
+        assert.ok(ratio >= least, `${name}: --${a} on --${b} is ${ratio.toFixed(2)}`);
+      }
+    };
+    check(texts, name === 'contrast' ? 7 : 4.5);
+    check(signs, 3);
+  }
+});
 
 test('with the keyboard every control is reached, its focus is seen, and none is a trap', async () => {
   await inView(it, 'settings', {}, async (page) => {

@@ -52,7 +52,7 @@ export class Person {
     return until(async () => {
       const state = await this.system.state();
       if (state.event.kind === 'confirmed' || state.event.kind === 'abandoned') return { over: state };
-      if (!state.query || state.query.answered || this.seen.has(state.query.id)) return null;
+      if (!state.query || !state.scene || state.query.answered || this.seen.has(state.query.id)) return null;
       return this.isShown(state.query) ? state : null;
     }, `a question after ${this.questions} answers`, 20000).catch(async (error) => {
       const { query, phase, event, notice } = await this.system.state();

@@ -19,8 +19,8 @@ const PICTURES = {
   scanning: ['scanning', {}],
   stopped: ['stopped', { size: [900, 500] }],
   partner: ['partner', {}],
-  why: ['why', {}],
-  history: ['history', { size: [1000, 640] }],
+  why: ['why', { size: [1280, 1250] }],
+  history: ['history', { size: [1000, 850] }],
   settings: ['settings', { size: [1000, 800] }],
 };
 

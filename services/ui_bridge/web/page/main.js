@@ -117,6 +117,7 @@ function makeParts() {
   if (partner) {
     byId('partner').hidden = false;
     byId('nav').hidden = true;
+    byId('scroll').tabIndex = 0;  // there is nothing else to scroll by
     return;
   }
   parts.switches = new Switches();

@@ -111,7 +111,7 @@ export class Picture {
     setText(this.caption, all + question);
   }
 
-  /** Labels keep the page's size of text however the image is scaled. */
+  /** Labels keep the page's size of text however the image is scaled, and stay inside of it. */
   scaleLabels() {
     const width = this.svg.clientWidth;
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
@@ -119,6 +119,11 @@ export class Picture {
       const unit = (this.svg.viewBox.baseVal?.width || width) / width;
       this.svg.style.setProperty('--unit', `${unit}px`);
       this.svg.style.setProperty('--label', `${Math.min(rem, 24) * unit}px`);
+      for (const label of this.svg.querySelectorAll('text')) {
+        const half = label.getComputedTextLength() / 2 + 4;
+        const x = Number(label.dataset.x);
+        label.setAttribute('x', Math.max(half, Math.min(width * unit - half, x)));
+      }
     }
   }
 }
@@ -150,7 +155,7 @@ function drawShape(shape, intrinsics) {
 
 function drawOutline(object, { isAsked, isLit }) {
   const points = object.outline_px.map((point) => point.join()).join(' ');
-  const look = `${isAsked ? ' asked' : ''}${isLit ? ' lit' : ''}`;
+  const look = `${isAsked ? ' asked' : ''}${isLit ? ' pointed' : ''}`;
   return [draw('polygon', { points, class: `under${look}` }), draw('polygon', { points, class: `over${look}` })];
 }
 
@@ -160,5 +165,5 @@ function drawLabel(object, name, numbers, { isAsked, isLit }) {
   const x = (Math.min(...u) + Math.max(...u)) / 2;
   const sign = isAsked ? (numbers?.length ? `▶ ${numbers.join(', ')}: ` : '▶ ') : '';
   const y = Math.max(18, Math.min(...v) - 5);
-  return draw('text', { x, y, class: isAsked || isLit ? 'asked' : '' }, sign + name);
+  return draw('text', { x, y, 'data-x': x, class: isAsked || isLit ? 'asked' : '' }, sign + name);
 }

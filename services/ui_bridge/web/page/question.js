@@ -104,16 +104,22 @@ export class Question {
 
   button(query, index) {
     const isYesNo = YES_NO.has(query.kind);
-    const sign = isYesNo ? ['✓', '✗'][index] : String(index + 1);
     return make('button', {
       type: 'button', class: isYesNo ? ['yes', 'no'][index] : 'one',
       on: { click: (event) => this.choose(index, event) } },
-    make('span', { class: 'sign', 'aria-hidden': 'true' }, sign), ' ',
+    this.sign(query, index), ' ',
     make('span', { class: 'name' }, optionText(query, index)));
   }
 
+  /** The number stands in the picture as well. */
+  sign(query, index) {
+    const sign = YES_NO.has(query.kind) ? ['✓', '✗'][index] : String(index + 1);
+    return make('span', { class: 'sign', 'aria-hidden': 'true' }, sign);
+  }
+
   partnerOption(query, index) {
-    return make('p', { class: 'option' }, optionText(query, index));
+    return make('p', { class: 'option' }, this.sign(query, index), ' ',
+      make('span', { class: 'name' }, optionText(query, index)));
   }
 
   async choose(index, event) {

@@ -32,6 +32,8 @@ const GROUPS = [
   ]],
 ];
 
+const ACCESS = ['pointer', 'keyboard', 'one_switch', 'two_switches', 'gaze'];  // first, in this order
+
 const read = (settings, path) => path.split('.').reduce((part, key) => part?.[key], settings);
 
 function write(settings, path, value) {
@@ -70,7 +72,8 @@ export class Settings {
   }
 
   presets() {
-    const names = Object.keys(this.reply.presets ?? {});
+    const offered = Object.keys(this.reply.presets ?? {});
+    const names = [...ACCESS.filter((name) => offered.includes(name)), ...offered.filter((name) => !ACCESS.includes(name))];
     return make('fieldset', { class: 'card' }, make('legend', {}, t('settings.access')),
       make('p', { class: 'small' }, t('settings.presets')),
       make('div', { class: 'choices' }, ...names.map((name) => this.radio('access', name))));

@@ -69,6 +69,7 @@ export class Trial {
   end() {
     clearInterval(this.timer);
     this.card.hidden = true;
+    this.tell('');
   }
 
   async keep() {
