@@ -13,7 +13,8 @@ struct DemoOptions {
   std::string input;  // file for capture; empty = the embedded scene
   std::string want;   // ACTION:CATEGORY of the simulated user; empty = something the scene offers
   int sessions = 0;   // 0 = one where simulated, else until the user leaves
-  std::vector<std::string> front_ends;  // empty = console and web on a terminal, simulated else
+  // Empty: console and web on a terminal; else web where a port is given, simulated where none is.
+  std::vector<std::string> front_ends;
   bool headless = false;
   std::string db;           // empty = a temporary one
   int port = 0;             // of the page; 0 = 8765, or any where that is taken

@@ -18,6 +18,8 @@ bool OnTerminal() { return isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) ==
 
 Status CompleteOptions(DemoOptions& options, const Catalogue& catalogue) {
   namespace fs = std::filesystem;
+  if (options.front_ends.empty() && options.port != 0 && !OnTerminal() && !options.headless)
+    options.front_ends = {"web"};  // who names the page's port wants the page
   if (options.front_ends.empty()) {
     options.headless |= !OnTerminal();
     options.front_ends = options.headless ? std::vector<std::string>{"simulated"}
