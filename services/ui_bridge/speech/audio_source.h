@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "services/base/run_loop.h"
-#include "services/ui_bridge/speech/child.h"
+#include "services/ui_bridge/child.h"
 
 namespace beckon::ui_bridge::speech {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "services/base/utime.h"
-#include "services/ui_bridge/speech/child.h"
+#include "services/ui_bridge/child.h"
 
 namespace beckon::ui_bridge::speech {
 namespace {

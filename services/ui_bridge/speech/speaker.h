@@ -10,7 +10,7 @@
 
 #include "services/base/latest_worker.h"
 #include "services/base/run_loop.h"
-#include "services/ui_bridge/speech/child.h"
+#include "services/ui_bridge/child.h"
 #include "services/ui_bridge/speech/espeak.h"
 
 namespace beckon::ui_bridge::speech {

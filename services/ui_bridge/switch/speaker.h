@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/base/run_loop.h"
+#include "services/ui_bridge/child.h"
 
 namespace beckon::ui_bridge {
 
@@ -25,7 +26,7 @@ class Speaker {
   /// Cuts off what is spoken.
   void Say(const std::string& text);
   void CutOff();
-  bool speaking() const { return child_ > 0; }
+  bool speaking() const { return child_.has_value(); }
 
  private:
   void Look();
@@ -34,9 +35,8 @@ class Speaker {
   const std::vector<std::string> command_;
   RunLoop& loop_;
   const std::function<void(const std::string&)> tell_;
-  int child_ = -1;
-  std::vector<int> dying_;  // cut off, and still to be reaped
-  std::optional<RunLoop::TimerId> timer_;
+  std::optional<Child> child_;
+  std::optional<RunLoop::TimerId> timer_;  // while it speaks
   bool missing_ = false;
   bool told_ = false;
 };

@@ -1,4 +1,4 @@
-#include "services/ui_bridge/speech/child.h"
+#include "services/ui_bridge/child.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace beckon::ui_bridge::speech {
+namespace beckon::ui_bridge {
 namespace {
 
 int CodeOf(int status) {
@@ -123,4 +123,4 @@ void Child::Kill() {
   Wait();
 }
 
-}  // namespace beckon::ui_bridge::speech
+}  // namespace beckon::ui_bridge

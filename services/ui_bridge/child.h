@@ -8,7 +8,7 @@
 
 #include "services/base/result.h"
 
-namespace beckon::ui_bridge::speech {
+namespace beckon::ui_bridge {
 
 class Child {
  public:
@@ -29,7 +29,7 @@ class Child {
   int output() const { return output_; }
   /// Readable once it has ended; -1 where the kernel has no pidfd.
   int ended_fd() const { return pidfd_; }
-  /// Whether it has ended; does not block.
+  /// Whether it has ended; does not block. Wait then tells how.
   bool Ended();
   /// Blocks until it ends; its exit code, or 128 + the signal that ended it.
   int Wait();
@@ -45,4 +45,4 @@ class Child {
   int code_ = 0;
 };
 
-}  // namespace beckon::ui_bridge::speech
+}  // namespace beckon::ui_bridge
