@@ -2,6 +2,7 @@
 
 #include <pocketsphinx.h>
 #include <sphinxbase/err.h>
+#include <sphinxbase/feat.h>
 #include <sphinxbase/fsg_model.h>
 #include <sphinxbase/ngram_model.h>
 
@@ -26,19 +27,13 @@ constexpr int kAnyWord = 1;
 
 using Cepstrum = std::array<mfcc_t, 13>;
 
-/// The mean that the model's makers saw, for speech of the level that Levelled gives.
-constexpr Cepstrum kUsualMean = {41.00F, -5.29F, -0.12F, 5.09F,  2.48F,  -4.07F, -1.37F,
-                                 -1.78F, -5.08F, -2.05F, -6.45F, -1.42F, 1.17F};
-
-/// Takes away what the microphone and the room add to all frames: their mean, drawn towards the
-/// usual one, since a word is too short to have a mean of its own.
+/// Takes away what the microphone and the room add to all frames: the mean over the quiet before
+/// and after, too, as in what the model was made of.
 void SubtractMean(std::vector<Cepstrum>& cepstra) {
-  constexpr float kUsualFrames = 100;
   Cepstrum mean{};
-  const auto n = static_cast<float>(cepstra.size()) + kUsualFrames;
-  for (size_t i = 0; i < mean.size(); ++i) {
-    mean[i] = kUsualFrames * kUsualMean[i] / n;
-    for (const auto& cepstrum : cepstra) mean[i] += cepstrum[i] / n;
+  const auto n = static_cast<float>(cepstra.size());
+  for (const auto& cepstrum : cepstra) {
+    for (size_t i = 0; i < mean.size(); ++i) mean[i] += cepstrum[i] / n;
   }
   for (auto& cepstrum : cepstra) {
     for (size_t i = 0; i < mean.size(); ++i) cepstrum[i] -= mean[i];
@@ -174,17 +169,20 @@ Result<std::unique_ptr<PhoneDecoder>> PhoneDecoder::Open(const std::string& mode
   auto state = std::make_unique<State>();
   // compallsen: scores of different passes are relative to the same. Beams so wide that every
   // phrase survives. Fillers only where the grammar has them.
-  state->config = cmd_ln_init(
-      nullptr, ps_args(), TRUE, "-hmm", (model_folder + "/en-us").c_str(), "-compallsen", "yes",
-      "-fsgusefiller", "no", "-fsgusealtpron", "no", "-beam", "1e-200", "-pbeam", "1e-200",
-      "-wbeam", "1e-200", "-bestpath", "no", "-pl_window", "0", "-remove_silence", "no",
-      "-allphone_ci", "yes", "-cmn", "none", "-remove_noise", "yes", nullptr);
+  state->config = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", (model_folder + "/en-us").c_str(),
+                              "-compallsen", "yes", "-fsgusefiller", "no", "-fsgusealtpron", "no",
+                              "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-200",
+                              "-bestpath", "no", "-pl_window", "0", "-remove_silence", "no",
+                              "-allphone_ci", "yes", "-remove_noise", "yes", nullptr);
   state->decoder = state->config == nullptr ? nullptr : ps_init(state->config);
   if (state->decoder == nullptr) {
     return Error{model_folder +
                  "/en-us: no acoustic model for PocketSphinx; install "
                  "pocketsphinx-en-us, or set [speech] model"};
   }
+  // Normalising is done here, over all of a segment. Its flag would be overruled by the model's
+  // feat.params, and a second mean, over the frames that are compared, ruins all scores.
+  ps_get_feat(state->decoder)->cmn = CMN_NONE;
   for (Phone phone = 0; phone < kPhones; ++phone) {
     ps_add_word(state->decoder, WordOf(phone).c_str(), kPhoneNames[phone], phone + 1 == kPhones);
   }
