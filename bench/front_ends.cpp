@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <variant>
 
 #include "services/base/app.h"
@@ -231,7 +233,43 @@ struct Options {
   std::vector<std::string> only;
   double think_s = 1.0;
   std::string json;
+  std::string readme;
 };
+
+std::string Readme(const nlohmann::json& rows, double think_s) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1)
+       << "# The same ten intentions at each front end\n\n"
+          "Written by `beckon-bench-front-ends --readme FILE`. The real intention service and the "
+          "real front end on an\n"
+          "in-process bus, in real time, each with a memory of its own that starts empty: a "
+          "carton, two mugs, a bowl, a\n"
+          "bottle, a box, a tube and a can on the table; open the carton (three times), drink from "
+          "the mug (three times),\n"
+          "grasp the bowl, pour from the bottle, move the box, squeeze the tube.\n"
+          "In the person's place is a hand that knows the right answer "
+       << think_s
+       << " s after the question came and never errs.\n"
+          "It presses a switch 0.45 s after what it wants is lit; speaks into a FIFO in the "
+          "microphone's place, without\n"
+          "waiting for the end of a prompt that it knows; clicks the page at once. The decoder of "
+          "brain signals takes 3 s a\n"
+          "trial and gives what is meant 0.7 of four classes. Settings are the front ends' own.\n\n"
+          "| front end | asked by | right | questions | s, mean | s, median | s, longest |\n"
+          "|---|---|---|---|---|---|---|\n";
+  for (const auto& row : rows) {
+    text << "| " << row["front_end"].get<std::string>() << " | "
+         << row["asked_by"].get<std::string>() << " | " << row["right"] << " of "
+         << row["intentions"] << " | " << row["questions_mean"].get<double>() << " | "
+         << row["seconds_mean"].get<double>() << " | " << row["seconds_median"].get<double>()
+         << " | " << row["seconds_longest"].get<double>() << " |\n";
+  }
+  text << "\nA session counts from the task before it, half a second for asking for the next one "
+          "included. Each front\n"
+          "end is asked what costs *its* user the least time, so they differ in questions as "
+          "well.\n";
+  return text.str();
+}
 
 Status Run(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
@@ -253,6 +291,8 @@ Status Run(const Options& options) {
   }
   if (!options.json.empty() && !(std::ofstream(options.json) << all.dump(1) << "\n"))
     return Error{"--json " + options.json + ": cannot be written"};
+  if (!options.readme.empty() && !(std::ofstream(options.readme) << Readme(all, options.think_s)))
+    return Error{"--readme " + options.readme + ": cannot be written"};
   return {};
 }
 
@@ -267,5 +307,6 @@ int main(int argc, char** argv) {
   app.add_option("--think", options.think_s, "Seconds from a question to what the person does")
       ->check(Within(0.0, 60.0));
   app.add_option("--json", options.json, "Write the figures")->type_name("OUT");
+  app.add_option("--readme", options.readme, "Write them as a page")->type_name("OUT");
   return RunApp(app, argc, argv, options.app, [&] { return Run(options); });
 }
