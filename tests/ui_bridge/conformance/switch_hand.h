@@ -38,6 +38,9 @@ class SwitchHand : public Hand {
     setup_->bus.Subscribe<msg::Highlight>([this](const msg::Highlight& lit) {
       if (lit.device == setup_->device) Look(lit);
     });
+    setup_->bus.Subscribe<msg::Answer>([this](const msg::Answer& answer) {
+      if (answer.query_id == query_id_) option_ = -1;
+    });
   }
   void Start() override { control_ = "start"; }
   size_t Choose(const msg::Query& query, size_t option) override {
@@ -88,8 +91,6 @@ class SwitchHand : public Hand {
     if (!news && acted_on_this_) return;
     const bool wants = option_ >= 0 || !control_.empty();
     acted_on_this_ = wants && Act(Wanted(lit) || lit.paused);
-    if (!acted_on_this_) return;
-    if (lit.options.size() == 1 && control_.empty() && Wanted(lit) && !lit.paused) option_ = -1;
   }
 
  protected:
