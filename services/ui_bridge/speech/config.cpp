@@ -95,12 +95,11 @@ void ReadConfig(ConfigTable table, SpeechConfig& config) {
 Status CheckWords(const SpeechConfig& config) {
   auto lexicon = LoadLexicon(config.ears.recogniser.model_folder);
   if (!lexicon) return lexicon.error();
-  for (const auto& command : {Command{CommandKind::kOption, 0, AllPhrases(config.words)}}) {
-    for (const auto& word : MissingWords({command}, *lexicon)) {
-      if (auto sounds = PronounceByEspeak(config.speaker.espeak, word); !sounds) {
-        return Error{"[speech.words]: '" + word + "' is in no dictionary, and " +
-                     sounds.error().message + "; give it as phones, e.g. \"/Y EH S/\""};
-      }
+  for (const auto& word :
+       MissingWords({{CommandKind::kOption, 0, AllPhrases(config.words)}}, *lexicon)) {
+    if (auto sounds = PronounceByEspeak(config.speaker.espeak, word); !sounds) {
+      return Error{"[speech.words]: '" + word + "' is in no dictionary, and " +
+                   sounds.error().message + "; give it as phones, e.g. \"/Y EH S/\""};
     }
   }
   return {};

@@ -26,10 +26,9 @@ double Median(std::vector<double>& values) {
 
 std::vector<double> Levels_dB(const std::vector<int16_t>& samples) {
   std::vector<double> levels;
-  int16_t before = 0;
+  LevelMeter meter;
   for (size_t i = 0; i + kSamplesPerFrame <= samples.size(); i += kSamplesPerFrame) {
-    levels.push_back(Level_dB({samples.data() + i, kSamplesPerFrame}, before));
-    before = samples[i + kSamplesPerFrame - 1];
+    levels.push_back(meter.Push({samples.data() + i, kSamplesPerFrame}));
   }
   return levels;
 }

@@ -22,7 +22,7 @@ struct EchoConfig {
   double loud_dB = 25;      // below the loudest of the prompt: what is softer teaches nothing
 };
 
-/// Level_dB of each frame of sound at kSampleRate.
+/// The LevelMeter's levels of each frame of sound at kSampleRate.
 std::vector<double> Levels_dB(const std::vector<int16_t>& samples);
 
 class EchoGate {

@@ -6,27 +6,25 @@
 namespace beckon::ui_bridge::speech {
 namespace {
 
-constexpr double kPreEmphasis = 0.95;
+constexpr double kHighPass = 0.95;
 constexpr size_t kRecent = 8;
 constexpr double kSmooth = 0.4;  // weight of the newest frame
 
 }  // namespace
 
-double Level_dB(std::span<const int16_t> frame, int16_t before) {
+double LevelMeter::Push(std::span<const int16_t> frame) {
   double sum = 0;
-  double previous = before;
   for (const int16_t sample : frame) {
-    const double high = sample - kPreEmphasis * previous;
-    previous = sample;
-    sum += high * high;
+    high_ = kHighPass * (high_ + sample - sample_);
+    sample_ = sample;
+    sum += high_ * high_;
   }
   const double n = std::max<double>(1, static_cast<double>(frame.size()));
   return std::max(kNoLevel_dB, 10 * std::log10(sum / n / (32768.0 * 32768.0) + 1e-12));
 }
 
 std::optional<Segment> Segmenter::Push(std::span<const int16_t> frame, double echo_dB) {
-  level_dB_ = Level_dB(frame, last_sample_);
-  if (!frame.empty()) last_sample_ = frame.back();
+  level_dB_ = meter_.Push(frame);
   FollowFloor();
   ++frames_;
   const double over = speaking_ ? config_.hold_dB : config_.onset_dB;

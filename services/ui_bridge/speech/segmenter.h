@@ -13,16 +13,23 @@
 
 namespace beckon::ui_bridge::speech {
 
-/// Level of a frame in dB below full scale (0 = a full square wave), with low frequencies, where
-/// rooms hum, taken down. `before` is the sample before the frame.
-double Level_dB(std::span<const int16_t> frame, int16_t before);
+/// Levels of frames that follow each other, in dB below full scale (0 = a full square wave),
+/// without the low frequencies (below 130 Hz) where rooms hum.
+class LevelMeter {
+ public:
+  double Push(std::span<const int16_t> frame);
+
+ private:
+  double sample_ = 0;  // the last one, before and after the filter
+  double high_ = 0;
+};
 
 /// Nothing is this quiet.
 inline constexpr double kNoLevel_dB = -120;
 
 struct SegmenterConfig {
-  double onset_dB = 9;       // above the floor: something begins
-  double hold_dB = 6;        // above the floor: it goes on
+  double onset_dB = 7;       // above the floor: something begins
+  double hold_dB = 4;        // above the floor: it goes on
   double quietest_dB = -62;  // the floor is never taken to be lower
   int onset_frames = 4;      // loud ones within 8 that make a beginning
   int pause_frames = 15;     // quiet ones after which what was said may be a whole word already
@@ -66,7 +73,7 @@ class Segmenter {
 
   SegmenterConfig config_;
   int64_t frames_ = 0;
-  int16_t last_sample_ = 0;
+  LevelMeter meter_;
   double level_dB_ = kNoLevel_dB;
   double smooth_dB_ = kNoLevel_dB;
   double floor_dB_ = kNoLevel_dB;

@@ -101,7 +101,7 @@ TEST_F(SegmenterTest, CutsWhatNeverEnds) {
 
 TEST_F(SegmenterTest, WantsSpeechToBeLouderThanTheEcho) {
   Push(100, 20);
-  const double echo_dB = Level_dB(Noise(2000), 0) + 6;
+  const double echo_dB = LevelMeter().Push(Noise(2000)) + 6;
   Push(60, 2000, echo_dB);
   Push(60, 20);
   EXPECT_TRUE(out_.empty());
