@@ -1,5 +1,7 @@
 #include "services/ui_bridge/speech/sound.h"
 
+#include <string_view>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -65,7 +67,9 @@ Result<Wave> ReadWave(std::span<const uint8_t> bytes) {
 
 std::vector<uint8_t> WriteWave(const Wave& wave) {
   std::vector<uint8_t> bytes;
-  const auto tag = [&](const char* name) { bytes.insert(bytes.end(), name, name + 4); };
+  const auto tag = [&](std::string_view name) {
+    for (const char c : name) bytes.push_back(static_cast<uint8_t>(c));
+  };
   const auto length = static_cast<uint32_t>(2 * wave.samples.size());
   const auto rate = static_cast<uint32_t>(wave.sample_rate);
   tag("RIFF");
