@@ -1,11 +1,10 @@
 #include "services/ui_bridge/speech/sound.h"
 
-#include <string_view>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <string_view>
 
 #include "services/ui_bridge/speech/acoustics.h"
 
