@@ -27,8 +27,8 @@ struct Acoustics {
   int frames = 0;
   /// The best sequence of phones, whatever it is.
   Alignment free;
-  /// The best sequence of words that are no commands.
-  std::optional<Alignment> other_words;
+  /// Score of the best sequence of words that are no commands.
+  std::optional<double> other_words;
   /// For each phrase of the grammar the best way to align it; nothing where it is too long.
   std::vector<std::optional<Alignment>> phrases;
 };

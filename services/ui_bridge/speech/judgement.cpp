@@ -79,13 +79,9 @@ Features Measure(const Acoustics& acoustics, const Grammar& grammar, size_t phra
   std::vector<double> phones;
   double squeezed = 0;
   double longest = 0;
-  double silence = 0;
   for (const auto& span : alignment) {
     const int frames = span.end - span.begin;
-    if (span.phone == kSilence) {
-      silence += against_free(span);
-      continue;
-    }
+    if (span.phone == kSilence) continue;
     first = std::min(first, span.begin);
     last = std::max(last, span.end);
     phones.push_back(against_free(span) / frames);
@@ -102,7 +98,6 @@ Features Measure(const Acoustics& acoustics, const Grammar& grammar, size_t phra
   std::ranges::sort(phones);
   features[kWorstPhone] = phones[0];
   features[kSecondWorst] = phones[std::min<size_t>(1, phones.size() - 1)];
-  features[kUnexplained] = silence / frames;
   features[kSqueezed] = squeezed / n;
   features[kLongest] = longest;
   features[kPace] = std::abs(std::log(frames / (kUsualPhone * n)));
@@ -114,9 +109,7 @@ Features Measure(const Acoustics& acoustics, const Grammar& grammar, size_t phra
       BestScore(acoustics, grammar,
                 [&](const Phrase& other) { return other.command && other.command != command; }),
       frames);
-  std::optional<double> sentence;
-  if (acoustics.other_words) sentence = Total(*acoustics.other_words);
-  features[kSentence] = Margin(score, sentence, frames);
+  features[kSentence] = Margin(score, acoustics.other_words, frames);
   features[kHeardApart] = Distance(Sounds(acoustics.free), grammar.phrases[phrase].sounds) / n;
   features[kLength] = std::log(n);
   return features;

@@ -20,7 +20,6 @@ enum Feature : size_t {
   kWorstPhone,   // the worst phone against free
   kSecondWorst,  // the next one
   kMeanPhone,    // mean over the phones, each per frame
-  kUnexplained,  // what the phrase takes for silence, against free, per frame of speech
   kSqueezed,     // share of phones that are as short as can be
   kLongest,      // the longest phone: log(frames / 20), at least 0
   kPace,         // |log(frames of speech / (8 x phones))|
@@ -32,7 +31,7 @@ enum Feature : size_t {
   kFeatures
 };
 inline constexpr std::array<const char*, kFeatures> kFeatureNames = {
-    "whole", "worst_phone", "second_worst", "mean_phone", "unexplained", "squeezed", "longest",
+    "whole", "worst_phone", "second_worst", "mean_phone", "squeezed",    "longest",
     "pace",  "rival",       "other",        "sentence",   "heard_apart", "length"};
 inline constexpr double kMarginCap = 3;
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <utility>
 
 namespace beckon::ui_bridge::speech {
@@ -42,6 +43,13 @@ void SubtractMean(std::vector<Cepstrum>& cepstra) {
 
 std::string WordOf(Phone phone) { return std::string("p") + kPhoneNames[phone]; }
 
+/// "w-S-T-EH-P"
+std::string OtherWord(const Pronunciation& sounds) {
+  std::string name = "w";
+  for (const Phone phone : sounds) name += std::string("-") + kPhoneNames[phone];
+  return name;
+}
+
 Phone PhoneOf(std::string name) {
   if (const size_t variant = name.find('('); variant != std::string::npos) name.resize(variant);
   if (name.starts_with('p')) name.erase(0, 1);
@@ -62,6 +70,7 @@ struct PhoneDecoder::State {
   cmd_ln_t* config = nullptr;
   ps_decoder_t* decoder = nullptr;
   fsg_model_t* grammar = nullptr;
+  std::set<std::string> learnt;  // other words
   std::vector<Pronunciation> phrases;
   std::vector<int> ends;  // of each phrase, a state of the grammar
 
@@ -69,6 +78,17 @@ struct PhoneDecoder::State {
     if (grammar != nullptr) fsg_model_free(grammar);
     if (decoder != nullptr) ps_free(decoder);
     if (config != nullptr) cmd_ln_free_r(config);
+  }
+
+  /// Phrases are made of words of one phone each, so that each phone has a score; other words are
+  /// whole, which is faster.
+  void Learn(const std::vector<Pronunciation>& words) {
+    std::vector<std::pair<std::string, std::string>> fresh;
+    for (const auto& word : words) {
+      if (learnt.insert(OtherWord(word)).second) fresh.emplace_back(OtherWord(word), ToText(word));
+    }
+    for (size_t i = 0; i < fresh.size(); ++i)
+      ps_add_word(decoder, fresh[i].first.c_str(), fresh[i].second.c_str(), i + 1 == fresh.size());
   }
 
   void Run(const char* search, std::vector<Cepstrum>& cepstra) {
@@ -167,11 +187,11 @@ PhoneDecoder::~PhoneDecoder() = default;
 Result<std::unique_ptr<PhoneDecoder>> PhoneDecoder::Open(const std::string& model_folder) {
   err_set_logfp(nullptr);
   auto state = std::make_unique<State>();
-  // compallsen: scores of different passes are relative to the same. Beams so wide that every
-  // phrase survives. Fillers only where the grammar has them.
+  // compallsen: scores of different passes are relative to the same. Beams so wide that only
+  // hopeless phrases are given up. Fillers only where the grammar has them.
   state->config = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", (model_folder + "/en-us").c_str(),
                               "-compallsen", "yes", "-fsgusefiller", "no", "-fsgusealtpron", "no",
-                              "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-200",
+                              "-beam", "1e-120", "-pbeam", "1e-120", "-wbeam", "1e-120",
                               "-bestpath", "no", "-pl_window", "0", "-remove_silence", "no",
                               "-allphone_ci", "yes", "-remove_noise", "yes", nullptr);
   state->decoder = state->config == nullptr ? nullptr : ps_init(state->config);
@@ -194,26 +214,28 @@ Result<std::unique_ptr<PhoneDecoder>> PhoneDecoder::Open(const std::string& mode
 Status PhoneDecoder::SetPhrases(const std::vector<Pronunciation>& phrases,
                                 const std::vector<Pronunciation>& words) {
   size_t n_states = 2;
-  for (const auto* some : {&phrases, &words}) {
-    for (const auto& sounds : *some) n_states += sounds.size();
-  }
+  for (const auto& phrase : phrases) n_states += phrase.size();
   logmath_t* logs = ps_get_logmath(state_->decoder);
   fsg_model_t* grammar = fsg_model_init(kPhrases, logs, 1.0F, static_cast<int32>(n_states));
   int next = 2;
-  const auto add = [&](int from, const Pronunciation& sounds, int to, int32 cost) {
-    for (size_t i = 0; i < sounds.size(); ++i) {
-      const int end = i + 1 == sounds.size() && to >= 0 ? to : next++;
-      fsg_model_trans_add(grammar, from, end, i == 0 ? cost : 0,
-                          fsg_model_word_add(grammar, WordOf(sounds[i]).c_str()));
-      from = end;
+  const auto add = [&](const Pronunciation& sounds) {
+    int from = kStart;
+    for (const Phone phone : sounds) {
+      fsg_model_trans_add(grammar, from, next, 0,
+                          fsg_model_word_add(grammar, WordOf(phone).c_str()));
+      from = next++;
     }
     return from;
   };
   // No silence: it fits speech nearly as well as phones do, and would explain away what was said.
   std::vector<int> ends;
-  for (const auto& phrase : phrases) ends.push_back(add(kStart, phrase, -1, 0));
+  for (const auto& phrase : phrases) ends.push_back(add(phrase));
   const auto cost = static_cast<int32>(-kWordCost / std::log(logmath_get_base(logs)));
-  for (const auto& word : words) add(kAnyWord, word, kAnyWord, cost >> kScoreShift);
+  state_->Learn(words);
+  for (const auto& word : words) {
+    fsg_model_trans_add(grammar, kAnyWord, kAnyWord, cost >> kScoreShift,
+                        fsg_model_word_add(grammar, OtherWord(word).c_str()));
+  }
   fsg_model_null_trans_add(grammar, kStart, kAnyWord, 0);
   glist_free(fsg_model_null_trans_closure(grammar, nullptr));
   grammar->start_state = kStart;
@@ -245,7 +267,10 @@ Acoustics PhoneDecoder::Decode(std::span<const int16_t> samples, int begin, int 
   if (state_->grammar == nullptr) return acoustics;
   state_->Run(kPhrases, cepstra);
   state_->grammar->final_state = kAnyWord;
-  if (auto words = state_->Read(); !words.empty()) acoustics.other_words = std::move(words);
+  if (const auto words = state_->Read(); !words.empty() && words.back().end == acoustics.frames) {
+    acoustics.other_words = 0;
+    for (const auto& word : words) *acoustics.other_words += word.score;
+  }
   // The search keeps the history of every state, and looks for the best path to the final one.
   // Where no path ends there it gives another one.
   for (size_t i = 0; i < state_->ends.size(); ++i) {

@@ -83,9 +83,10 @@ Result<JudgementModel> LoadJudgement(const std::string& path) {
 std::string ToToml(const JudgementModel& model) {
   char line[96];
   std::string text =
-      "# How phrases are told from what else is said (services/ui_bridge/speech/judgement.h): a\n"
-      "# logistic regression. Made by `beckon-speech-judge --train`; see "
-      "docs/experiments/speech.\n";
+      "# How phrases are told from what else is said (services/ui_bridge/speech/judgement.h): "
+      "log-odds,\n"
+      "# linear in what is measured. Made by `beckon-speech-judge --learn FILE`; see\n"
+      "# docs/experiments/speech.\n";
   std::snprintf(line, sizeof line, "bias = %.5f\n\n[weights]\n", model.bias);
   text += line;
   for (size_t i = 0; i < kFeatures; ++i) {

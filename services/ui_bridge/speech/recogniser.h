@@ -18,7 +18,7 @@ namespace beckon::ui_bridge::speech {
 struct RecogniserConfig {
   std::string model_folder = kModelFolder;
   GrammarConfig grammar;
-  size_t frequent_words = 400;  // that are rivals, too
+  size_t frequent_words = 800;  // that are rivals, too
   JudgementModel judgement;
   EspeakConfig espeak;  // for words that the dictionary lacks
 };
