@@ -280,7 +280,9 @@ TEST(Codec, FingerprintsAreLocked) {
       {"label_t", 0x7d3b00c4161fd9b2},       {"poses_t", 0x715036521295f425},
       {"query_t", 0xcacf0cc24ccdf064},       {"scene_t", 0x4ef49dbaddf4c015},
       {"session_t", 0x1e39e1f4c26e2b7c},     {"status_t", 0x11a1e4a40922e1e7},
-      {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67}};
+      {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67},
+      {"decoding_t", 0x25ccf6a5129af706},    {"highlight_t", 0x3c257a389ea8a20f},
+      {"profile_t", 0x8c1023ee4c26e13a},     {"stimulus_t", 0x2458e8d2e03de2e2}};
   EXPECT_EQ(now, locked);
 }
 

@@ -9,6 +9,7 @@ namespace beckon::ui_bridge::speech {
 namespace {
 
 constexpr size_t kMostWords = 16;
+constexpr size_t kFewestPhones = 2;  // of a command; in a phrase a word may be "a"
 
 /// Words as a user writes them become phrases; pronunciations between slashes stay.
 void ReadWords(ConfigTable& table, const std::string& key, std::vector<std::string>& phrases) {
@@ -21,11 +22,12 @@ void ReadWords(ConfigTable& table, const std::string& key, std::vector<std::stri
   for (const auto& text : given) {
     if (text.starts_with('/')) {
       const bool closed = text.size() > 2 && text.ends_with('/');
-      if (auto sounds = closed ? ParsePronunciation(text.substr(1, text.size() - 2))
-                               : Result<Pronunciation>(Error{"'" + text + "' has no second slash"});
-          !sounds) {
-        return table.Fail(key, sounds.error().message);
-      }
+      const auto sounds = closed
+                              ? ParsePronunciation(text.substr(1, text.size() - 2))
+                              : Result<Pronunciation>(Error{"'" + text + "' has no second slash"});
+      if (!sounds) return table.Fail(key, sounds.error().message);
+      if (sounds->size() < kFewestPhones)
+        return table.Fail(key, "'" + text + "' is too short to be told from a noise");
       phrases.push_back(text);
     } else if (const std::string phrase = Normalised(text); !phrase.empty()) {
       phrases.push_back(phrase);

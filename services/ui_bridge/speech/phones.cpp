@@ -8,7 +8,6 @@
 namespace beckon::ui_bridge::speech {
 namespace {
 
-constexpr size_t kMinPhones = 2;
 constexpr size_t kMaxPhones = 64;
 
 /// espeak-ng's mnemonics of its English voices; several phones with a blank between.
@@ -75,8 +74,8 @@ Result<Pronunciation> ParsePronunciation(const std::string& text) {
     }
     pronunciation.push_back(*phone);
   }
-  if (pronunciation.size() < kMinPhones || pronunciation.size() > kMaxPhones) {
-    return Error{"pronunciation '" + text + "': expected 2 to 64 phones, found " +
+  if (pronunciation.empty() || pronunciation.size() > kMaxPhones) {
+    return Error{"pronunciation '" + text + "': expected 1 to 64 phones, found " +
                  std::to_string(pronunciation.size())};
   }
   return pronunciation;

@@ -28,7 +28,7 @@ inline constexpr Phone kSilence = kPhones;
 std::optional<Phone> PhoneFromName(std::string_view name);
 bool IsVowel(Phone phone);
 
-/// "S T AA P": 2 .. 64 phones with blanks between them.
+/// "S T AA P": 1 .. 64 phones with blanks between them.
 Result<Pronunciation> ParsePronunciation(const std::string& text);
 /// What `espeak-ng -q -x --sep=_` prints for a word: "s_t_'0_p". An error names a sound that is
 /// not English.

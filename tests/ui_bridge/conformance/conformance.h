@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,12 @@
 
 namespace beckon::ui_bridge::conformance {
 
-using MakeHand = std::unique_ptr<Hand> (*)();
+/// Makes a hand for each test; printed as its front end's name.
+struct MakeHand {
+  const char* name;
+  std::unique_ptr<Hand> (*make)();
+};
+inline void PrintTo(const MakeHand& hand, std::ostream* out) { *out << hand.name; }
 
 /// The front end of a hand in a real service, on an in-process bus, with a scripted intention.
 class FrontEndConformance : public ::testing::TestWithParam<MakeHand> {
@@ -68,8 +74,9 @@ class FrontEndConformance : public ::testing::TestWithParam<MakeHand> {
 }  // namespace beckon::ui_bridge::conformance
 
 /// At namespace scope: runs the suite with hands of this class.
-#define BECKON_FRONT_END_CONFORMANCE(HandClass)                                                    \
-  INSTANTIATE_TEST_SUITE_P(                                                                        \
-      HandClass, FrontEndConformance,                                                              \
-      ::testing::Values(+[]() -> std::unique_ptr<Hand> { return std::make_unique<HandClass>(); }), \
+#define BECKON_FRONT_END_CONFORMANCE(HandClass)                                                  \
+  INSTANTIATE_TEST_SUITE_P(                                                                      \
+      HandClass, FrontEndConformance,                                                            \
+      ::testing::Values(MakeHand{                                                                \
+          #HandClass, []() -> std::unique_ptr<Hand> { return std::make_unique<HandClass>(); }}), \
       [](const auto&) { return std::string("FrontEnd"); })

@@ -51,7 +51,7 @@ struct FrontEndConformance::Program {
 };
 
 FrontEndConformance::FrontEndConformance()
-    : bus_(std::move(*Bus::Open("memq://"))), hand_(GetParam()()) {}
+    : bus_(std::move(*Bus::Open("memq://"))), hand_(GetParam().make()) {}
 
 FrontEndConformance::~FrontEndConformance() = default;
 
