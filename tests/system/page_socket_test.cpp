@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -18,6 +19,7 @@ namespace beckon::tool {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 int PortOf(const PageSocket& page) {
@@ -83,7 +85,10 @@ TEST(PageSocket, ReachesTheProgramThatServesIt) {
 TEST(PageSocket, ReachesNobodyElse) {
   const auto page = PageSocket::Listen(0);
   ASSERT_TRUE(page);
-  EXPECT_EQ(Shell("echo \"$LISTEN_FDS$LISTEN_PID\"; readlink /proc/$$/fd/3 || true", -1), "\n");
+  const std::string said = Shell("echo \"<$LISTEN_FDS$LISTEN_PID>\"; readlink /proc/$$/fd/*", -1);
+  EXPECT_THAT(said, StartsWith("<>\n"));
+  const std::string self = "/proc/self/fd/" + std::to_string(page->fd());
+  EXPECT_THAT(said, Not(HasSubstr(std::filesystem::read_symlink(self).string())));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class SpeechHand : public Hand {
   static constexpr Utime kPatience_us = 6 * kSecond;
   static constexpr Utime kBeat_us = 50'000;
   static constexpr size_t kBeatSamples = 800;  // at 16 kHz
-  static constexpr size_t kBreathSamples = 16'000;
+  static constexpr size_t kBreathSamples = 40'000;
 
   void Beat() {
     std::normal_distribution<double> room(0, 12);
