@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr Utime kTick_us = 50'000;
 constexpr Utime kProfileRepeat_us = 500'000;
+constexpr size_t kShownTasksKept = 32;
 constexpr Utime kFarewell_us = kSecond;  // for a last cancel to be heard
 
 bool IsNameCharacter(char c) {
@@ -94,8 +96,9 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   }
 
   void OnTask(const msg::Task& task) {
-    if (task.user != dialogue_.user() || task.task_id == shown_task_) return;
-    shown_task_ = task.task_id;
+    if (task.user != dialogue_.user() || std::ranges::count(shown_tasks_, task.task_id) > 0) return;
+    shown_tasks_.push_back(task.task_id);
+    if (shown_tasks_.size() > kShownTasksKept) shown_tasks_.pop_front();
     front_end_->ShowTask(task);
   }
 
@@ -186,8 +189,8 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   Dialogue dialogue_;
   std::unique_ptr<FrontEnd> front_end_;
   std::optional<Utime> finished_at_;
-  std::optional<Utime> profile_due_;  // while one is asked for
-  std::string shown_task_;
+  std::optional<Utime> profile_due_;     // while one is asked for
+  std::deque<std::string> shown_tasks_;  // several may be repeated, where no robot takes them
   std::string task_id_;
   std::optional<msg::TaskState> task_state_;
   std::optional<msg::TaskStatus> early_;

@@ -30,7 +30,7 @@ for (const name of Object.keys(VIEWS)) {
 test('axe sees a fault that is put in', async () => {
   await inView(it, 'question', {}, async (page) => {
     await page.evaluate(() => {
-      const button = document.getElementById('controls').appendChild(document.createElement('button'));
+      const button = document.getElementById('main').appendChild(document.createElement('button'));
       button.style.background = button.style.color = '#777';
     });
     assert.deepEqual((await axe(page)).violations.map((each) => each.id), ['button-name']);
@@ -132,6 +132,7 @@ test('a new question is in an assertive live region, and the focus stays on the 
     assert.deepEqual([await live.getAttribute('role'), await live.getAttribute('aria-live')], ['status', 'assertive']);
     const { query } = await it.system.state();
     const isYesNo = query.options[0].text === 'Yes';
+    await page.locator('#options button[aria-disabled=false]').first().waitFor();
     await page.locator('#options button').last().focus();
     await page.keyboard.press('Enter');
     await whenPage(page, (text) => document.getElementById('question').textContent !== text, query.text);

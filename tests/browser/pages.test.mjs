@@ -14,11 +14,12 @@ const shows = (page, text) => whenPage(page, (t) => document.getElementById('que
 
 test('of two pages that answer one question the first counts, and both go on', async () => {
   const one = await it.browser.open(it.system.url, { quiet: true });
-  await one.locator('#options button').first().waitFor();
+  await one.locator('#options button[aria-disabled=false]').first().waitFor();
   const two = await it.browser.open(it.system.url, { quiet: true });
-  await two.locator('#options button').first().waitFor();
+  await two.locator('#options button[aria-disabled=false]').first().waitFor();
   const { query } = await it.system.state();
   await Promise.all([shows(one, query.text), shows(two, query.text)]);
+  for (const page of [one, two]) await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const statuses = [];
   for (const page of [one, two]) {
     page.on('response', (response) => response.url().endsWith('/api/answer') && statuses.push(response.status()));
@@ -42,7 +43,7 @@ test('of two pages that answer one question the first counts, and both go on', a
 
 test('a press that began before a question was shown does not answer it', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const { query } = await it.system.state();
   await shows(page, query.text);
   const no = await page.locator('#options button').last().boundingBox();
@@ -61,9 +62,29 @@ test('a press that began before a question was shown does not answer it', async 
   await page.context().close();
 });
 
+test('a question that comes by itself takes the focus off the answers, and no quick press answers it', async () => {
+  const page = await it.browser.open(it.system.url);
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
+  const { query } = await it.system.state();
+  await page.locator('#options button').last().focus();
+  const answers = [];
+  page.on('request', (request) => request.url().endsWith('/api/answer') && answers.push(request.postDataJSON()));
+  // In the moment in which the next question is there somebody presses what the focus is on, and clicks.
+  await page.evaluate(() => new MutationObserver(() => {
+    document.activeElement.click();
+    document.querySelector('#options button')?.click();
+  }).observe(document.getElementById('options'), { attributes: true, attributeFilter: ['data-query'] }));
+  await it.system.send('POST', 'api/answer', { query_id: query.id, option: query.options.length - 1 });
+  await whenPage(page, (id) => document.querySelector(`#options:not([data-query="${id}"]) button[aria-disabled=false]`), query.id);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'question');
+  assert.deepEqual(answers, []);
+  await endSession(it.system);
+  await page.context().close();
+});
+
 test('a page left open finds its way back after ui_bridge was killed, and says so meanwhile', async () => {
   const page = await it.browser.open(it.system.url, { quiet: true });
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   await it.system.kill('ui_bridge');
   await page.getByText('Not connected. Trying again').waitFor();
   assert.equal(await page.locator('#options button').first().getAttribute('aria-disabled'), 'true');
@@ -78,7 +99,7 @@ test('a page left open finds its way back after ui_bridge was killed, and says s
 
 test('a page left open finds its way back after intention was killed', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   await it.system.kill('intention');
   await page.getByText('nothing decides what to ask').waitFor();
   it.system.launch('intention');
@@ -91,7 +112,7 @@ test('a page left open finds its way back after intention was killed', async () 
 
 test('the picture shows what is on the table, and what the question is about', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   await page.locator('#picture .frame img').waitFor();
   await whenPage(page, () => document.querySelector('#picture img').naturalWidth === 640);
   const { scene } = await it.system.state();
@@ -127,7 +148,7 @@ test('superquadrics are drawn where the objects are', async () => {
 
 test('"Why this question?" tells the reason, the likeliest tasks and what each answer leaves', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   await button(page, 'Why this question?').click();
   const { query } = await it.system.state();
   assert.ok((await page.locator('#why-panel').textContent()).includes(query.why));
@@ -139,7 +160,7 @@ test('"Why this question?" tells the reason, the likeliest tasks and what each a
 
 test('another user is chosen by name, has a history of their own, and the page says whose questions they are', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   await button(page, 'Who am I?').click();
   await page.getByLabel('Another name').fill('Jörg');
   await button(page, 'Use this name').click();
@@ -194,7 +215,7 @@ test('until the first question less than 200 kB come besides pictures, 100 kB of
   session.on('Network.requestWillBeSent', ({ requestId, request }) => kinds.set(requestId, kindOf(request.url)));
   session.on('Network.dataReceived', ({ requestId, dataLength }) => (bytes[kinds.get(requestId)] += dataLength));
   await page.goto(it.system.url, { waitUntil: 'commit' });
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   console.log(`# ${JSON.stringify(bytes)}`);
   assert.ok(bytes.page > 10000 && bytes.page < 100000, `the page itself: ${bytes.page} bytes`);
   assert.ok(bytes.api > 1000 && bytes.page + bytes.api < 200000, `all: ${bytes.page + bytes.api} bytes`);

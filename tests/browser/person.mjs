@@ -1,7 +1,7 @@
 // Somebody who wants one thing, looks at the table and at the page, and answers truly. What a
 // question means is read from /api/state; every answer goes through the page.
 
-import { button, whenPage } from './browser.mjs';
+import { button } from './browser.mjs';
 import { until } from './system.mjs';
 
 /** Whether the proposition holds for the task that is wanted. */
@@ -53,15 +53,17 @@ export class Person {
       const state = await this.system.state();
       if (state.event.kind === 'confirmed' || state.event.kind === 'abandoned') return { over: state };
       if (!state.query || !state.scene || state.query.answered || this.seen.has(state.query.id)) return null;
-      return this.isShown(state.query) ? state : null;
+      return (await this.isShown(state.query)) ? state : null;
     }, `a question after ${this.questions} answers`, 20000).catch(async (error) => {
       const { query, phase, event, notice } = await this.system.state();
       throw new Error(`${error.message}; ${JSON.stringify({ query: query?.text, answered: query?.answered, phase, event, notice })}`);
     });
   }
 
+  /** On the page, and presses count. */
   async isShown(query) {
-    return (await this.page.locator('#question').textContent()) === query.text;
+    return this.page.evaluate(([id, text]) => document.getElementById('question').textContent === text &&
+      document.querySelector(`#options[data-query="${id}"] button[aria-disabled=false]`) !== null, [query.id, query.text]);
   }
 
   /** Answers until the session is over; the last state. `act(index, state)` says an answer. */
@@ -70,10 +72,15 @@ export class Person {
     for (;;) {
       const state = await this.nextQuestion();
       if (state.over) return state.over;
-      await whenPage(this.page, (text) => document.getElementById('question').textContent === text, state.query.text);
       this.seen.add(state.query.id);
       this.questions += 1;
-      await act(this.decide(state), state);
+      try {
+        await act(this.decide(state), state);
+      } catch (error) {
+        // Another question took its place: then that one is answered.
+        if ((await this.system.state()).query?.id === state.query.id) throw error;
+        this.questions -= 1;
+      }
     }
   }
 
@@ -88,20 +95,23 @@ export class Person {
   }
 }
 
-export const byMouse = (page) => async (index) => {
-  await page.locator('#options button').nth(index).click();
+/** The button of an answer to this very question. */
+const answer = (page, index, state) => page.locator(`#options[data-query="${state.query.id}"] button`).nth(index);
+
+export const byMouse = (page) => async (index, state) => {
+  await answer(page, index, state).click({ timeout: 5000 });
 };
 
 /** Tab and Enter alone. */
-export const byKeyboard = (page) => async (index) => {
-  await tabTo(page, page.locator('#options button').nth(index));
+export const byKeyboard = (page) => async (index, state) => {
+  await tabTo(page, answer(page, index, state));
   await page.keyboard.press('Enter');
 };
 
 /** Tabs until the focus is on `target`; fails where it is not reached. */
 export async function tabTo(page, target, most = 60) {
   for (let i = 0; i < most; ++i) {
-    if (await target.evaluate((element) => element === document.activeElement)) return i;
+    if (await target.evaluate((element) => element === document.activeElement, null, { timeout: 5000 })) return i;
     await page.keyboard.press('Tab');
   }
   throw new Error('not reached by Tab');

@@ -63,7 +63,7 @@ for (const [name, size] of Object.entries(SIZES)) {
 
 test('undo takes the last answer back', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const before = await it.system.state();
   await page.locator('#options button').last().click();
   await whenPage(page, (text) => document.getElementById('question').textContent !== text, before.query.text);
@@ -77,7 +77,7 @@ test('undo takes the last answer back', async () => {
 
 test('"None of these" refuses all that is on offer', async () => {
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const { query } = await it.system.state();
   await button(page, 'None of these').click();
   await whenPage(page, (text) => document.getElementById('question').textContent !== text, query.text);

@@ -93,7 +93,7 @@ test('settings are changed by the keyboard alone', async () => {
 test('a pointer that rests on a button clicks it once', async () => {
   await keep({ access: 'gaze', dwell_s: 0.4 });
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const person = new Person(it.system, page, WANT);
   const state = await person.converse(async (index) => {
     await page.mouse.move(5, 5);
@@ -186,7 +186,7 @@ test('two switches: one steps, the other chooses', async () => {
   await keep({ access: 'two_switches', scan: { method: 'step', ignore_repeat_s: 0.05, rounds: 0 } });
   await endSession(it.system);
   const page = await it.browser.open(it.system.url);
-  await page.locator('#options button').first().waitFor();
+  await page.locator('#options button[aria-disabled=false]').first().waitFor();
   const person = new Person(it.system, page, WANT);
   const state = await person.converse(async (index) => {
     const isLit = () => page.locator('#options > *').nth(index).evaluate((e) => e.classList.contains('lit'));

@@ -32,8 +32,10 @@ class Agreeable final : public FrontEnd {
   void ShowTaskStatus(const msg::TaskStatus& status) override {
     task_states.push_back(status.state);
   }
+  void ShowTask(const msg::Task& task) override { tasks.push_back(task.task_id); }
   std::string State() const override { return "agrees"; }
 
+  static inline std::vector<std::string> tasks;           // likewise
   static inline std::vector<msg::TaskState> task_states;  // shown to any of them
 
  private:
@@ -174,6 +176,27 @@ TEST_F(ServiceTest, ShowsWhatARobotSaysBeforeTheConfirmationToo) {
   service.Begin();
   loop_.Run();
   EXPECT_EQ(Agreeable::task_states, std::vector{msg::TaskState::kDone});
+}
+
+TEST_F(ServiceTest, ShowsEachTaskOnceHoweverManyAreRepeated) {
+  Agreeable::tasks.clear();
+  Service service({.user = "ann", .device = "", .exit_after_sessions = 0}, *bus_, loop_, clock_,
+                  steady_);
+  ASSERT_TRUE(service.Add(*Factory("agreeable")));
+  service.Begin();
+  for (const char* id : {"first", "second", "first", "second", "first"}) {
+    msg::Task task;
+    task.utime = clock_.Now();
+    task.task_id = id;
+    task.user = "ann";
+    task.action = "Open";
+    task.object = {.object_id = 1, .category = "Carton", .instance = 1};
+    task.posterior = 1;
+    task.expires_utime = clock_.Now() + kSecond;
+    ASSERT_TRUE(bus_->Publish(task));
+  }
+  loop_.Run();
+  EXPECT_EQ(Agreeable::tasks, (std::vector<std::string>{"first", "second"}));
 }
 
 TEST_F(ServiceTest, SeveralFrontEndsHaveNamesOfTheirOwn) {

@@ -5,6 +5,9 @@ import { currentLanguage, pair, t, tn } from './i18n.js';
 import { post, request } from './server.js';
 
 const YES_NO = new Set(['action', 'object', 'full', 'category', 'set']);
+// After a new question presses count for nothing for a moment: they were meant for the one before.
+// Where it came by itself (the table changed, another page answered) nobody waits for it: longer.
+const GUARD_MS = { expected: 150, unexpected: 600 };
 const REQUESTS = { undo: 'undo', none: 'none_of_these', start: 'start' };  // by control
 
 /** Whether the option says that none of the others holds. */
@@ -27,6 +30,8 @@ export class Question {
     this.shown = null;       // id of the query whose options are shown
     this.pressedFor = null;  // the query that stood when the pointer or key went down
     this.chosen = null;      // {id, index} that was sent
+    this.acted = true;       // this page asked for what comes next
+    this.guardUntil = 0;
     this.heading = byId('question');
     this.options = byId('options');
     this.controls = byId('controls');
@@ -38,6 +43,7 @@ export class Question {
 
   update(state, connected) {
     this.connected = connected;
+    this.state = state;
     this.showHeading(state);
     this.showOptions(state);
     if (!this.partner) this.showControls(state);
@@ -68,23 +74,34 @@ export class Question {
   showOptions({ query, highlight }) {
     const id = query?.id ?? null;
     const words = currentLanguage();
+    const isNew = id !== null && id !== this.latest;
     if (id === null || this.shown !== id || this.words !== words) this.buildOptions(query);
+    if (isNew) this.guard(id);
     this.shown = id;
     this.words = words;
+    if (this.options.dataset.query !== String(id ?? '')) this.options.dataset.query = id ?? '';
     if (query === null) return;
     const lit = new Set(highlight?.options ?? []);
     const sent = this.chosen?.id === id ? this.chosen.index : null;
     [...this.options.children].forEach((button, index) => {
       mark(button, lit.has(index), highlight);
       if (this.partner) return;
-      const isOff = query.answered || sent !== null || !this.connected;
+      const isOff = query.answered || sent !== null || !this.connected || performance.now() < this.guardUntil;
       button.setAttribute('aria-disabled', String(isOff));
       button.classList.toggle('chosen', sent === index);
     });
   }
 
-  /** Buttons of the same two answers stay, and so does the focus on them; else it goes to the
-   * question, so that no key that was meant for the last question answers this one. */
+  guard(id) {
+    const ms = this.acted ? GUARD_MS.expected : GUARD_MS.unexpected;
+    this.latest = id;
+    this.acted = false;
+    this.guardUntil = performance.now() + ms;
+    setTimeout(() => this.update(this.state, this.connected), ms + 1);
+  }
+
+  /** Buttons of the same two answers stay, and so does the focus on them where the question was
+   * expected; else it goes to the question, so that no key answers what was not read. */
   buildOptions(query) {
     const hadFocus = this.options.contains(document.activeElement);
     const isYesNo = query !== null && YES_NO.has(query.kind);
@@ -95,6 +112,7 @@ export class Question {
     if (stays) {
       [...this.options.children].forEach((child, i) =>
         setText(child.querySelector('.name') ?? child, optionText(query, i)));
+      if (hadFocus && !this.acted && query.id !== this.latest) this.heading.focus();
       return;
     }
     const make_ = this.partner ? (i) => this.partnerOption(query, i) : (i) => this.button(query, i);
@@ -130,6 +148,7 @@ export class Question {
     const button = this.options.children[index];
     if (id === null || isStale || button.getAttribute('aria-disabled') === 'true') return;
     this.chosen = { id, index };
+    this.acted = true;
     for (const each of this.options.children) each.setAttribute('aria-disabled', 'true');
     button.classList.add('chosen');
     const answer = await post('/api/answer', { query_id: id, option: index });
@@ -167,6 +186,7 @@ export class Question {
     if (!(name in REQUESTS)) return make('p', { 'data-control': name, class: 'chip' });
     const what = REQUESTS[name];
     const say = async () => {
+      this.acted = true;
       const answer = await request(what);
       if (!answer.ok) this.tell(t('error.not_said', { error: answer.error }));
     };
