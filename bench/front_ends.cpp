@@ -234,6 +234,7 @@ struct Options {
   double think_s = 1.0;
   std::string json;
   std::string readme;
+  std::vector<std::string> measured;
 };
 
 std::string Readme(const nlohmann::json& rows, double think_s) {
@@ -273,9 +274,16 @@ std::string Readme(const nlohmann::json& rows, double think_s) {
 
 Status Run(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
+  for (const auto& file : options.measured) {
+    const auto rows = nlohmann::json::parse(std::ifstream(file), nullptr, false);
+    if (!rows.is_array()) return Error{"--measured " + file + ": expected what --json writes"};
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  const bool page_only = !options.measured.empty() && options.only.empty();
   std::fprintf(stderr, "%-22s %-8s %6s %10s %8s %8s %8s\n", "front end", "asked by", "right",
                "questions", "mean s", "median", "longest");
   for (const auto& [name, make] : ui_bridge::conformance::AllHands()) {
+    if (page_only) break;
     if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end())
       continue;
     Day day(make(), options.think_s);
@@ -307,6 +315,10 @@ int main(int argc, char** argv) {
   app.add_option("--think", options.think_s, "Seconds from a question to what the person does")
       ->check(Within(0.0, 60.0));
   app.add_option("--json", options.json, "Write the figures")->type_name("OUT");
+  app.add_option(
+         "--measured", options.measured,
+         "What --json wrote before, to be in the page; without --only nothing else is measured")
+      ->type_name("JSON");
   app.add_option("--readme", options.readme, "Write them as a page")->type_name("OUT");
   return RunApp(app, argc, argv, options.app, [&] { return Run(options); });
 }

@@ -85,7 +85,8 @@ TEST(PageSocket, ReachesTheProgramThatServesIt) {
 TEST(PageSocket, ReachesNobodyElse) {
   const auto page = PageSocket::Listen(0);
   ASSERT_TRUE(page);
-  const std::string said = Shell("echo \"<$LISTEN_FDS$LISTEN_PID>\"; readlink /proc/$$/fd/*", -1);
+  const std::string said =
+      Shell("echo \"<$LISTEN_FDS$LISTEN_PID>\"; readlink /proc/$$/fd/* || true", -1);
   EXPECT_THAT(said, StartsWith("<>\n"));
   const std::string self = "/proc/self/fd/" + std::to_string(page->fd());
   EXPECT_THAT(said, Not(HasSubstr(std::filesystem::read_symlink(self).string())));
