@@ -10,6 +10,7 @@
 
 #include "services/ui_bridge/speech/audio_source.h"
 #include "services/ui_bridge/speech/config.h"
+#include "services/ui_bridge/speech/phone_decoder.h"
 #include "services/ui_bridge/speech/speaker.h"
 
 namespace beckon::ui_bridge::speech {
@@ -178,11 +179,17 @@ TEST(Configuration, TakesAUsersWordsAndNamesWrongOnes) {
   const auto [right, status] = read("accept = 0.7\n[words]\nyes = [\"Aye\", \"/AA Y/\"]\n");
   ASSERT_TRUE(status) << status.error().message;
   EXPECT_EQ(right.words.yes, (std::vector<std::string>{"aye", "/AA Y/"}));
-  for (const char* wrong :
-       {"accept = 2", "[words]\nyes = []", "[words]\nno = [\"/Q Q/\"]", "[words]\nno = [\"/N OW\"]",
-        "record = []", "[words]\nstop = [\"!\"]", "loud = 1", "kind = \"song\""}) {
+  for (const char* wrong : {"accept = 2", "[words]\nyes = []", "[words]\nno = [\"/Q Q/\"]",
+                            "[words]\nno = [\"/N OW\"]", "[words]\nno = [\"/S/\"]", "record = []",
+                            "[words]\nstop = [\"!\"]", "loud = 1", "kind = \"song\""}) {
     EXPECT_FALSE(read(wrong).second) << wrong;
   }
+}
+
+TEST(Configuration, WordsOfOneSoundCanBeSaidInAnOptionsName) {
+  const auto lexicon = LoadLexicon(SpeechConfig{}.ears.recogniser.model_folder);
+  ASSERT_TRUE(lexicon) << lexicon.error().message;
+  EXPECT_FALSE(lexicon->Find("a").empty()) << "a box";
 }
 
 TEST(Configuration, TheShippedDefaultsCanBePronounced) {

@@ -71,7 +71,12 @@ TEST(Phones, RefuseWhatIsNoneAndNameIt) {
   ASSERT_FALSE(wrong);
   EXPECT_THAT(wrong.error().message, HasSubstr("'Q'"));
   EXPECT_FALSE(ParsePronunciation(""));
-  EXPECT_FALSE(ParsePronunciation("S"));
+}
+
+TEST(Phones, MayBeOneWithinAPhrase) {
+  const auto a = ParsePronunciation("AH0");
+  ASSERT_TRUE(a) << a.error().message;
+  EXPECT_EQ(a->size(), 1u);
 }
 
 TEST(Phones, ComeFromEspeaksMnemonics) {
