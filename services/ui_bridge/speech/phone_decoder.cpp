@@ -191,7 +191,7 @@ Result<std::unique_ptr<PhoneDecoder>> PhoneDecoder::Open(const std::string& mode
   // hopeless phrases are given up. Fillers only where the grammar has them.
   state->config = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", (model_folder + "/en-us").c_str(),
                               "-compallsen", "yes", "-fsgusefiller", "no", "-fsgusealtpron", "no",
-                              "-beam", "1e-120", "-pbeam", "1e-120", "-wbeam", "1e-120",
+                              "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-200",
                               "-bestpath", "no", "-pl_window", "0", "-remove_silence", "no",
                               "-allphone_ci", "yes", "-remove_noise", "yes", nullptr);
   state->decoder = state->config == nullptr ? nullptr : ps_init(state->config);

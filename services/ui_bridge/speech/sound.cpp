@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <random>
 #include <string_view>
 
 #include "services/ui_bridge/speech/acoustics.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kUsualLevel = 3000;  // root mean square of the loud frames
 constexpr double kMostGain = 31.6;
+constexpr double kHiss = 240;  // 22 dB below that
 constexpr double kLoudShare = 0.9;
 constexpr int kTaps = 16;  // zero crossings on either side
 
@@ -126,8 +128,13 @@ std::vector<int16_t> Levelled(std::span<const int16_t> samples) {
       levels.begin() + static_cast<ptrdiff_t>(kLoudShare * static_cast<double>(levels.size() - 1));
   std::ranges::nth_element(levels, nth);
   const double gain = std::clamp(kUsualLevel / std::max(1.0, *nth), 1 / kMostGain, kMostGain);
-  for (auto& sample : result)
-    sample = static_cast<int16_t>(std::clamp(std::round(sample * gain), -32768.0, 32767.0));
+  std::minstd_rand random(1);
+  for (auto& sample : result) {
+    double hiss = -6;  // of twelve uniform draws: nearly normal, of deviation 1
+    for (int i = 0; i < 12; ++i) hiss += static_cast<double>(random()) / std::minstd_rand::max();
+    sample = static_cast<int16_t>(
+        std::clamp(std::round(sample * gain + kHiss * hiss), -32768.0, 32767.0));
+  }
   return result;
 }
 
