@@ -19,7 +19,7 @@ struct SpeechConfig {
   std::string model_file;       // of the judgement; empty: the one that ships
   std::string kind = "choice";  // or "yesno"
   int max_options = 5;          // that are read out
-  double false_yes = 0.02;      // of accepted answers, measured (docs/experiments/speech)
+  double false_yes = 0.02;      // of accepted answers; a guess, where learning starts
   double false_no = 0.02;
   double ask_again_s = 20;  // after a question that nobody answers; 0: never
   int ask_again_times = 2;

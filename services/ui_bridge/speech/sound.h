@@ -24,8 +24,8 @@ std::vector<int16_t> AtSampleRate(const Wave& wave);
 
 /// Made louder or softer so that its loud parts have the level that the acoustic model is used to,
 /// but by no more than 30 dB; with a soft hiss under it, 22 dB below. The model was made of
-/// recordings and knows no silence as deep as a good microphone's: without the hiss a fifth fewer
-/// commands are understood. The same samples give the same result.
+/// recordings and knows no silence as deep as a good microphone's.
+/// The same samples give the same result.
 std::vector<int16_t> Levelled(std::span<const int16_t> samples);
 
 }  // namespace beckon::ui_bridge::speech
