@@ -44,6 +44,14 @@ struct Frame {
   std::vector<uint8_t> colour;
 };
 
+struct Seal {
+  std::string sender;
+  int64_t counter = 0;
+  Utime expires_utime = 0;
+  std::array<uint8_t, 8> key_id{};
+  std::array<uint8_t, 64> signature{};
+};
+
 struct CategoryProbability {
   std::string category;
   float probability = 0;
@@ -77,6 +85,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   float segmentation_ms = 0;
   float categorisation_ms = 0;
+  Seal seal;
 };
 
 struct Grasp {
@@ -114,17 +123,10 @@ struct Poses {
   int64_t seq = 0;
   int64_t scene_seq = 0;
   std::vector<ObjectPose> poses;
+  Seal seal;
 };
 
 /// Sender, validity and signature of a control message. Unsigned where the key is all zeros.
-struct Seal {
-  std::string sender;
-  int64_t counter = 0;
-  Utime expires_utime = 0;
-  std::array<uint8_t, 8> key_id{};
-  std::array<uint8_t, 64> signature{};
-};
-
 enum class InterfaceKind : int8_t { kYesNo = 1, kChoice = 2, kScan = 3, kVector = 4 };
 
 struct Interface {
@@ -137,6 +139,7 @@ struct Interface {
   float false_yes = 0;
   float false_no = 0;
   std::vector<std::vector<float>> confusion;  // square, or empty
+  Seal seal;
 };
 
 struct ObjectRef {
@@ -332,6 +335,7 @@ struct Highlight {
   bool pressed = false;
   bool paused = false;
   int dwell_ms = 0;
+  Seal seal;
 };
 
 enum class StimulusMode : int8_t { kMatrix = 1, kBinary = 2 };
@@ -369,6 +373,7 @@ struct HistoryDigest {
 struct HistoryRow {
   std::string origin;
   int64_t seq = 0;
+  Utime hybrid_utime = 0;
   std::string kind;
   std::string body;  // JSON
 };
@@ -376,8 +381,21 @@ struct HistoryRow {
 struct History {
   Utime utime = 0;
   std::string machine;
+  std::string run;
+  bool complete = true;
   std::vector<HistoryDigest> digests;
   std::vector<HistoryRow> rows;
+  Seal seal;
+};
+
+struct Lease {
+  Utime utime = 0;
+  std::string user;
+  std::string session_id;
+  std::string holder;
+  std::string run;
+  int64_t term = 0;
+  int remaining_ms = 0;
   Seal seal;
 };
 

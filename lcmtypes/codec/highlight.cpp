@@ -20,6 +20,7 @@ static void Walk(Walker& w, const highlight_t*) {
   const int32_t controls = w.Count("n_controls", kMaxControls);
   for (int32_t i = 0; i < controls && w.ok(); ++i) w.String("control", kMaxName);
   w.Skip(1 + 1 + 4);
+  Walk(w, static_cast<const seal_t*>(nullptr));
 }
 
 static Status Check(const msg::Highlight& highlight) {
@@ -31,7 +32,8 @@ static Status Check(const msg::Highlight& highlight) {
       .Require(highlight.query_id >= 0, "query_id is negative")
       .Count(highlight.options.size(), "options", kMaxOptions)
       .Count(highlight.controls.size(), "controls", kMaxControls)
-      .Range(highlight.dwell_ms, "dwell_ms", 0, kLongestDwell_ms);
+      .Range(highlight.dwell_ms, "dwell_ms", 0, kLongestDwell_ms)
+      .Require(Check(highlight.seal));
   for (const int option : highlight.options) rules.Range(option, "options", 0, kMaxOptions - 1);
   for (const auto& control : highlight.controls) rules.Name(control, "controls", kMaxName);
   return rules;
@@ -50,6 +52,7 @@ static highlight_t ToWire(const msg::Highlight& highlight) {
   wire.pressed = static_cast<int8_t>(highlight.pressed);
   wire.paused = static_cast<int8_t>(highlight.paused);
   wire.dwell_ms = highlight.dwell_ms;
+  wire.seal = ToWire(highlight.seal);
   return wire;
 }
 
@@ -65,6 +68,7 @@ static Result<msg::Highlight> FromWire(const highlight_t& wire) {
   highlight.pressed = wire.pressed != 0;
   highlight.paused = wire.paused != 0;
   highlight.dwell_ms = wire.dwell_ms;
+  highlight.seal = FromWire(wire.seal);
   return highlight;
 }
 

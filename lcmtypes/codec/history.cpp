@@ -16,6 +16,8 @@ constexpr int kMaxBody = 8192;
 static void Walk(Walker& w, const history_t*) {
   w.Skip(8);
   w.String("machine", kMaxName);
+  w.String("run", kMaxName);
+  w.Skip(1);
   const int32_t digests = w.Count("n_digests", kMaxEntries);
   for (int32_t i = 0; i < digests && w.ok(); ++i) {
     w.String("origin", kMaxName);
@@ -24,7 +26,7 @@ static void Walk(Walker& w, const history_t*) {
   const int32_t rows = w.Count("n_rows", kMaxEntries);
   for (int32_t i = 0; i < rows && w.ok(); ++i) {
     w.String("origin", kMaxName);
-    w.Skip(8);
+    w.Skip(8 + 8);
     w.String("kind", kMaxName);
     w.String("body", kMaxBody);
     w.Skip(4);
@@ -36,6 +38,7 @@ static Status Check(const msg::History& history) {
   Rules rules("history");
   rules.Time(history.utime)
       .Name(history.machine, "machine")
+      .Name(history.run, "run")
       .Count(history.digests.size(), "digests", kMaxEntries)
       .Count(history.rows.size(), "rows", kMaxEntries)
       .Require(Check(history.seal));
@@ -45,6 +48,7 @@ static Status Check(const msg::History& history) {
   for (const auto& row : history.rows) {
     rules.Name(row.origin, "origin")
         .Require(row.seq >= 1, "seq is below 1")
+        .Time(row.hybrid_utime)
         .Name(row.kind, "kind")
         .Name(row.body, "body", kMaxBody);
   }
@@ -54,8 +58,9 @@ static Status Check(const msg::History& history) {
 int32_t Checksum(const msg::HistoryRow& row) {
   uLong crc = 0;
   const std::string seq = std::to_string(row.seq);
+  const std::string time = std::to_string(row.hybrid_utime);
   // The terminating zeros keep ("ab", "c") and ("a", "bc") apart.
-  for (const std::string* part : {&row.origin, &seq, &row.kind, &row.body}) {
+  for (const std::string* part : {&row.origin, &seq, &time, &row.kind, &row.body}) {
     crc = crc32_z(crc, reinterpret_cast<const Bytef*>(part->c_str()), part->size() + 1);
   }
   return static_cast<int32_t>(crc);
@@ -65,6 +70,8 @@ static history_t ToWire(const msg::History& history) {
   history_t wire{};
   wire.utime = history.utime;
   wire.machine = history.machine;
+  wire.run = history.run;
+  wire.complete = static_cast<int8_t>(history.complete);
   wire.n_digests = static_cast<int32_t>(history.digests.size());
   for (const auto& digest : history.digests) {
     history_digest_t d{};
@@ -78,6 +85,7 @@ static history_t ToWire(const msg::History& history) {
     history_row_t r{};
     r.origin = row.origin;
     r.seq = row.seq;
+    r.hybrid_utime = row.hybrid_utime;
     r.kind = row.kind;
     r.body = row.body;
     r.crc = Checksum(row);
@@ -88,13 +96,16 @@ static history_t ToWire(const msg::History& history) {
 }
 
 static Result<msg::History> FromWire(const history_t& wire) {
+  if (!IsBool(wire.complete)) return Error{"complete is neither 0 nor 1"};
   msg::History history;
   history.utime = wire.utime;
   history.machine = wire.machine;
+  history.run = wire.run;
+  history.complete = wire.complete != 0;
   for (const auto& d : wire.digests)
     history.digests.push_back({d.origin, d.highest_seq, d.checksum});
   for (const auto& r : wire.rows) {
-    msg::HistoryRow row{r.origin, r.seq, r.kind, r.body};
+    msg::HistoryRow row{r.origin, r.seq, r.hybrid_utime, r.kind, r.body};
     if (Checksum(row) != r.crc)
       return Error{"row " + std::to_string(r.seq) + " of " + r.origin + ": checksum differs"};
     history.rows.push_back(std::move(row));

@@ -15,6 +15,7 @@ static void Walk(Walker& w, const interface_t*) {
   w.Skip(1 + 4 + 4 * 4);
   const auto k = static_cast<size_t>(w.Count("n_confusion", kMaxOptions));
   w.Skip(k * k * 4);
+  Walk(w, static_cast<const seal_t*>(nullptr));
 }
 
 static Status Check(const msg::Interface& interface) {
@@ -27,7 +28,8 @@ static Status Check(const msg::Interface& interface) {
       .Range(interface.seconds_per_option, "seconds_per_option", 0, 3600)
       .Range(interface.false_yes, "false_yes", 0, 0.5)
       .Range(interface.false_no, "false_no", 0, 0.5)
-      .Count(interface.confusion.size(), "confusion", kMaxOptions);
+      .Count(interface.confusion.size(), "confusion", kMaxOptions)
+      .Require(Check(interface.seal));
   for (const auto& row : interface.confusion) {
     rules.Require(row.size() == interface.confusion.size(), "confusion is not square");
     double sum = 0;
@@ -52,6 +54,7 @@ static interface_t ToWire(const msg::Interface& interface) {
   wire.false_no = interface.false_no;
   wire.n_confusion = static_cast<int32_t>(interface.confusion.size());
   wire.confusion = interface.confusion;
+  wire.seal = ToWire(interface.seal);
   return wire;
 }
 
@@ -66,6 +69,7 @@ static Result<msg::Interface> FromWire(const interface_t& wire) {
   interface.false_yes = wire.false_yes;
   interface.false_no = wire.false_no;
   interface.confusion = wire.confusion;
+  interface.seal = FromWire(wire.seal);
   return interface;
 }
 

@@ -39,6 +39,7 @@ static void Walk(Walker& w, const scene_t*) {
   for (int32_t i = 0; i < objects && w.ok(); ++i)
     Walk(w, static_cast<const scene_object_t*>(nullptr));
   w.Skip(4 + 4);
+  Walk(w, static_cast<const seal_t*>(nullptr));
 }
 
 /// Samples and rim travel as offsets from the first of them.
@@ -111,7 +112,8 @@ static Status Check(const msg::Scene& scene) {
       .Count(scene.objects.size(), "objects", msg::kMaxObjects)
       .Require(scene.has_table || scene.objects.empty(), "objects without a table")
       .Range(scene.segmentation_ms, "segmentation_ms", 0, 1e9)
-      .Range(scene.categorisation_ms, "categorisation_ms", 0, 1e9);
+      .Range(scene.categorisation_ms, "categorisation_ms", 0, 1e9)
+      .Require(Check(scene.seal));
   for (const auto& vertex : scene.table_W) rules.Require(Finite(vertex), "table_W is not finite");
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     rules.Require(Check(scene.objects[i]));
@@ -173,6 +175,7 @@ static scene_t ToWire(const msg::Scene& scene) {
   for (const auto& object : scene.objects) wire.objects.push_back(ToWire(object));
   wire.segmentation_ms = scene.segmentation_ms;
   wire.categorisation_ms = scene.categorisation_ms;
+  wire.seal = ToWire(scene.seal);
   return wire;
 }
 
@@ -225,6 +228,7 @@ static Result<msg::Scene> FromWire(const scene_t& wire) {
   }
   scene.segmentation_ms = wire.segmentation_ms;
   scene.categorisation_ms = wire.categorisation_ms;
+  scene.seal = FromWire(wire.seal);
   return scene;
 }
 

@@ -35,7 +35,7 @@ std::vector<msg::SuperquadricShape> ToMessages(const std::vector<Superquadric>& 
 }
 
 // Of an encoded object pose, in bytes; lcmtypes/object_pose_t.lcm. A little more than they are.
-constexpr size_t kBytesOfMessage = 64, kBytesOfPose = 320, kBytesOfShape = 112, kBytesOfGrasp = 68;
+constexpr size_t kBytesOfMessage = 240, kBytesOfPose = 320, kBytesOfShape = 112, kBytesOfGrasp = 68;
 constexpr size_t kLongestReason = 400;
 constexpr size_t kGraspsWorthKeeping = 4;
 

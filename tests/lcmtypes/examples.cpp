@@ -12,13 +12,6 @@ Pose ExamplePose() {
   return pose;
 }
 
-Seal ExampleSeal() {
-  Seal seal{.sender = "kitchen/test", .counter = 7, .expires_utime = 99};
-  seal.key_id.fill(3);
-  seal.signature.fill(9);
-  return seal;
-}
-
 ObjectPose ExampleObjectPose() {
   ObjectPose pose;
   pose.object_id = 2;
@@ -54,10 +47,18 @@ Frame ExampleFrame() {
   return frame;
 }
 
+Seal ExampleSeal() {
+  Seal seal{.sender = "kitchen/test", .counter = 7, .expires_utime = 99};
+  seal.key_id.fill(3);
+  seal.signature.fill(9);
+  return seal;
+}
+
 Scene ExampleScene() {
   Scene scene{
       .utime = 1, .seq = 2, .frame_seq = 3, .source = "example", .width = 640, .height = 480};
   scene.intrinsics = {600, 610, 330, 250};
+  scene.seal = ExampleSeal();
   scene.has_table = true;
   scene.X_WC = ExamplePose();
   scene.table_W = {{-0.5, 0.2}, {0.5, 0.2}, {0, 1}};
@@ -84,8 +85,11 @@ Scene ExampleScene() {
 }
 
 Poses ExamplePoses() {
-  return {
-      .utime = 1, .seq = 2, .scene_seq = 3, .poses = {ExampleObjectPose(), ExampleObjectPose()}};
+  return {.utime = 1,
+          .seq = 2,
+          .scene_seq = 3,
+          .poses = {ExampleObjectPose(), ExampleObjectPose()},
+          .seal = ExampleSeal()};
 }
 
 Interface ExampleInterface() {
@@ -95,6 +99,7 @@ Interface ExampleInterface() {
   interface.false_yes = 0.05f;
   interface.false_no = 0.1f;
   interface.confusion = {{0.9f, 0.1f}, {0.2f, 0.8f}};
+  interface.seal = ExampleSeal();
   return interface;
 }
 
@@ -214,7 +219,8 @@ Highlight ExampleHighlight() {
           .controls = {"undo"},
           .pressed = true,
           .paused = false,
-          .dwell_ms = 1000};
+          .dwell_ms = 1000,
+          .seal = ExampleSeal()};
 }
 
 Stimulus ExampleStimulus() {
@@ -242,8 +248,25 @@ Decoding ExampleDecoding() {
 History ExampleHistory() {
   return {.utime = 1,
           .machine = "kitchen",
+          .run = "3f2a",
+          .complete = true,
           .digests = {{.origin = "kitchen", .highest_seq = 12, .checksum = -5}},
-          .rows = {{.origin = "kitchen", .seq = 12, .kind = "session", .body = "{\"a\": 1}"}},
+          .rows = {{.origin = "kitchen",
+                    .seq = 12,
+                    .hybrid_utime = 7,
+                    .kind = "session",
+                    .body = "{\"a\": 1}"}},
+          .seal = ExampleSeal()};
+}
+
+Lease ExampleLease() {
+  return {.utime = 5,
+          .user = "ann",
+          .session_id = "s",
+          .holder = "kitchen",
+          .run = "3f2a",
+          .term = 3,
+          .remaining_ms = 1500,
           .seal = ExampleSeal()};
 }
 

@@ -22,6 +22,7 @@ Highlight ExampleHighlight();
 Stimulus ExampleStimulus();
 Decoding ExampleDecoding();
 History ExampleHistory();
+Lease ExampleLease();
 Status ExampleStatus();
 
 /// One of each, to write a property once for all types.
@@ -29,7 +30,8 @@ inline auto AllExamples() {
   return std::make_tuple(ExampleFrame(), ExampleScene(), ExamplePoses(), ExampleInterface(),
                          ExampleQuery(), ExampleAnswer(), ExampleSession(), ExampleTask(),
                          ExampleTaskStatus(), ExampleLabel(), ExampleProfile(), ExampleHighlight(),
-                         ExampleStimulus(), ExampleDecoding(), ExampleHistory(), ExampleStatus());
+                         ExampleStimulus(), ExampleDecoding(), ExampleHistory(), ExampleLease(),
+                         ExampleStatus());
 }
 
 }  // namespace beckon::msg
