@@ -9,8 +9,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "services/base/bus.h"
-
 namespace beckon {
 namespace {
 
@@ -24,6 +22,30 @@ void SetUpLog(const AppOptions& options) {
   logger->set_level(options.verbose ? spdlog::level::debug : spdlog::level::info);
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));
+}
+
+/// $BECKON_KEYS, be it empty; else the machine's folder, or this user's, where there is one.
+std::string DefaultKeys() {
+  namespace fs = std::filesystem;
+  if (const char* keys = std::getenv("BECKON_KEYS")) return keys;
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path own = config != nullptr && *config != '\0'
+                           ? fs::path(config)
+                           : fs::path(home == nullptr ? "." : home) / ".config";
+  std::error_code none;
+  for (const fs::path& folder : {fs::path("/etc/beckon/keys"), own / "beckon" / "keys"}) {
+    if (fs::exists(folder / "node.key", none)) return folder.string();
+  }
+  return {};
+}
+
+/// Whether LCM sends beyond this machine by `url`.
+bool LeavesTheMachine(const std::string& url) {
+  if (url.starts_with("tcpq://")) return true;
+  const size_t ttl = url.find("ttl=");
+  return url.starts_with("udpm://") && ttl != std::string::npos &&
+         std::atoi(url.c_str() + ttl + 4) > 0;
 }
 
 int Fail(const CLI::App& app, const std::string& message, int code) {
@@ -44,6 +66,12 @@ void AddAppOptions(CLI::App& app, AppOptions& options) {
                  std::string("Where the messages travel (default: $LCM_DEFAULT_URL, else ") +
                      kDefaultLcmUrl + ")")
       ->type_name("URL");
+  options.keys = DefaultKeys();
+  app.add_option("--keys", options.keys,
+                 "Folder of keys by which messages are signed (default: $BECKON_KEYS, else "
+                 "/etc/beckon/keys or ~/.config/beckon/keys where there is one; \"\" = unsigned); "
+                 "see beckon keys")
+      ->type_name("DIR");
   app.add_flag("--verbose", options.verbose, "Log more");
 }
 
@@ -66,6 +94,27 @@ int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options,
   } catch (const std::exception& e) {
     return Fail(app, std::string("internal error: ") + e.what(), kInternalError);
   }
+}
+
+Result<std::unique_ptr<Bus>> OpenBus(const AppOptions& options, const std::string& program) {
+  static const SystemClock clock;
+  static const SteadyClock steady;
+  std::unique_ptr<trust::Guard> guard;
+  if (!options.keys.empty()) {
+    const trust::KeyFolder folder(options.keys);
+    auto own = folder.Own();
+    if (!own) return own.error();
+    if (!*own)
+      return Error{options.keys + ": holds no key of this machine; make one: beckon keys make"};
+    guard = std::make_unique<trust::Guard>(
+        folder, **own, DataFile("counter." + (*own)->node.name + "." + program), clock, steady);
+  } else if (LeavesTheMachine(options.lcm_url)) {
+    return Error{
+        "'" + options.lcm_url +
+        "' leaves this machine, where anybody could answer for the user or move "
+        "the robot: make keys (beckon keys make; see docs/deployment), or stay here with ttl=0"};
+  }
+  return Bus::Open(options.lcm_url, std::move(guard));
 }
 
 std::function<std::string(const std::string&)> Within(double min, double max) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "services/base/bus.h"
 #include "services/base/config.h"
 #include "services/base/result.h"
 
@@ -18,6 +19,7 @@ struct AppOptions {
   std::string config_file;
   bool check_config = false;
   std::string lcm_url;  // after Parse: --lcm-url, else $LCM_DEFAULT_URL, else kDefaultLcmUrl
+  std::string keys;     // after Parse: folder of keys; empty = messages are not signed
   bool verbose = false;
 };
 
@@ -31,6 +33,11 @@ void AddAppOptions(CLI::App& app, AppOptions& options);
 /// and exceptions to one line on standard error and an exit code.
 int RunApp(CLI::App& app, int argc, char** argv, AppOptions& options,
            const std::function<Status()>& body);
+
+/// The bus of `options`, as `program` ("intention"). Where there are keys, what is said on it is
+/// signed and what is heard checked; without them a URL by which messages leave this machine is
+/// refused.
+Result<std::unique_ptr<Bus>> OpenBus(const AppOptions& options, const std::string& program);
 
 /// For CLI::Option::check: a number from `min` to `max`, which NaN is not.
 std::function<std::string(const std::string&)> Within(double min, double max);

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <exception>
 #include <lcm/lcm-cpp.hpp>
 
@@ -23,18 +24,34 @@ struct Bus::Handler {
   }
 };
 
-Result<std::unique_ptr<Bus>> Bus::Open(const std::string& url) {
+Result<std::unique_ptr<Bus>> Bus::Open(const std::string& url,
+                                       std::unique_ptr<trust::Guard> guard) {
   auto lcm = std::make_unique<lcm::LCM>(url);
   if (!lcm->good()) {
     return Error{"LCM cannot open '" + url + "': expected e.g. " + kDefaultLcmUrl +
                  "; for udpm:// the machine needs a multicast route "
                  "(ip route add 224.0.0.0/4 dev lo), see 'beckon doctor'"};
   }
-  return std::unique_ptr<Bus>(new Bus(std::move(lcm)));
+  return std::unique_ptr<Bus>(new Bus(std::move(lcm), std::move(guard)));
 }
 
-Bus::Bus(std::unique_ptr<lcm::LCM> lcm) : lcm_(std::move(lcm)) {}
+Bus::Bus(std::unique_ptr<lcm::LCM> lcm, std::unique_ptr<trust::Guard> guard)
+    : lcm_(std::move(lcm)), guard_(std::move(guard)) {}
 Bus::~Bus() = default;
+
+void Bus::Stamp(msg::Seal& seal, bool may_last) {
+  if (guard_ != nullptr) return guard_->Stamp(seal, may_last);
+  counter_ = std::max(counter_ + 1, SystemClock().Now());
+  seal.counter = counter_;
+}
+
+bool Bus::Believe(const char* channel, const msg::Seal& seal, const trust::Demand& demand,
+                  std::span<const uint8_t> bytes) {
+  if (guard_ == nullptr) return true;
+  const auto rejection = guard_->Check(channel, seal, demand, bytes);
+  if (rejection) Refuse(channel, rejection->reason + ": " + rejection->detail);
+  return !rejection;
+}
 
 void Bus::Refuse(const std::string& channel, const std::string& detail) {
   ++refused_;

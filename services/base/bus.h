@@ -12,6 +12,7 @@
 
 #include "lcmtypes/codec.h"
 #include "services/base/result.h"
+#include "services/base/trust/guard.h"
 
 namespace lcm {
 class LCM;
@@ -26,28 +27,46 @@ inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_b
 
 class Bus {
  public:
-  /// `url` as LCM takes it (udpm://, memq://, file://).
-  static Result<std::unique_ptr<Bus>> Open(const std::string& url);
+  /// `url` as LCM takes it (udpm://, memq://, file://). With a guard, messages that have a seal are
+  /// signed, and only those that it believes reach a handler.
+  static Result<std::unique_ptr<Bus>> Open(const std::string& url,
+                                           std::unique_ptr<trust::Guard> guard = nullptr);
   ~Bus();
 
   /// Sends a message on its type's channel; refuses values that break the type's rules or its size.
+  /// Of a seal the sender and, where it matters, the expiry are the caller's; the rest is filled
+  /// in.
   template <typename T>
   Status Publish(const T& message) {
-    auto bytes = Codec<T>::Encode(message);
-    if (!bytes) return bytes.error();
-    return PublishBytes(Codec<T>::kChannel, *bytes);
+    if constexpr (requires { message.seal; }) {
+      T sealed = message;
+      Stamp(sealed.seal, trust::DemandOf(message).may_last);
+      auto bytes = Codec<T>::Encode(sealed);
+      if (!bytes) return bytes.error();
+      if (guard_ != nullptr) guard_->Sign(*bytes);
+      return PublishBytes(Codec<T>::kChannel, *bytes);
+    } else {
+      auto bytes = Codec<T>::Encode(message);
+      if (!bytes) return bytes.error();
+      return PublishBytes(Codec<T>::kChannel, *bytes);
+    }
   }
 
-  /// Calls `handler` with each valid message of the type. `queue` messages may wait; frames take 1,
-  /// state and commands the default.
+  /// Calls `handler` with each valid message of the type that is to be believed. `queue` messages
+  /// may wait; frames take 1, state and commands the default.
   template <typename T>
   void Subscribe(std::function<void(T)> handler, int queue = 30) {
-    SubscribeBytes(Codec<T>::kChannel, queue,
-                   [this, handler = std::move(handler)](std::span<const uint8_t> bytes) {
-                     auto message = Codec<T>::Decode(bytes);
-                     if (!message) return Refuse(Codec<T>::kChannel, message.error().message);
-                     handler(*std::move(message));
-                   });
+    SubscribeBytes(
+        Codec<T>::kChannel, queue,
+        [this, handler = std::move(handler)](std::span<const uint8_t> bytes) {
+          auto message = Codec<T>::Decode(bytes);
+          if (!message) return Refuse(Codec<T>::kChannel, message.error().message);
+          if constexpr (requires { message->seal; }) {
+            if (!Believe(Codec<T>::kChannel, message->seal, trust::DemandOf(*message), bytes))
+              return;
+          }
+          handler(*std::move(message));
+        });
   }
 
   /// Counts and logs something refused; services use it for messages that are well formed but wrong
@@ -68,11 +87,16 @@ class Bus {
   using BytesHandler = std::function<void(std::span<const uint8_t>)>;
   struct Handler;
 
-  explicit Bus(std::unique_ptr<lcm::LCM> lcm);
+  Bus(std::unique_ptr<lcm::LCM> lcm, std::unique_ptr<trust::Guard> guard);
+  void Stamp(msg::Seal& seal, bool may_last);
+  bool Believe(const char* channel, const msg::Seal& seal, const trust::Demand& demand,
+               std::span<const uint8_t> bytes);
   Status PublishBytes(const char* channel, const std::vector<uint8_t>& bytes);
   void SubscribeBytes(const char* channel, int queue, BytesHandler handler);
 
   std::unique_ptr<lcm::LCM> lcm_;
+  std::unique_ptr<trust::Guard> guard_;  // null: messages are not signed
+  int64_t counter_ = 0;                  // of seals, where they are not
   std::vector<std::unique_ptr<Handler>> handlers_;
   int64_t received_ = 0;
   int64_t refused_ = 0;

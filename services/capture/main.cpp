@@ -40,7 +40,7 @@ Status Serve(const capture::Options& options, const AppOptions& app_options) {
   auto source = OpenSource(options);
   if (!source) return source.error();
   RunLoop loop(/*handle_signals=*/true);
-  auto bus = Bus::Open(app_options.lcm_url);
+  auto bus = OpenBus(app_options, "capture");
   if (!bus) return bus.error();
   loop.AddFd((*bus)->fd(), [&] { (*bus)->HandleReadable(); });
   const SystemClock clock;

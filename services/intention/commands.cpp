@@ -137,7 +137,7 @@ Status CommandLine::Serve(const ServiceConfig& config) {
     return Error{"--policy " + config.policy + ": expected adaptive or oain"};
   }
   RunLoop loop(/*handle_signals=*/true);
-  auto bus = Bus::Open(common_.lcm_url);
+  auto bus = OpenBus(common_, "intention");
   if (!bus) return bus.error();
   const SystemClock clock;
   auto service = Service::Start(config, **bus, loop, clock);

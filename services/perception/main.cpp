@@ -14,11 +14,11 @@ namespace {
 using namespace beckon;
 using namespace beckon::perception;
 
-Status Serve(const PerceptionConfig& config, const std::string& lcm_url) {
+Status Serve(const PerceptionConfig& config, const AppOptions& app) {
   auto categoriser = LoadCategoriser(config);
   if (!categoriser) return categoriser.error();
   RunLoop loop(true);  // before threads start: it blocks signals for all of them
-  auto bus = Bus::Open(lcm_url);
+  auto bus = OpenBus(app, "perception");
   if (!bus) return bus.error();
   Service service(**bus, loop, config.perceiver, *std::move(categoriser), config.learning);
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
@@ -44,6 +44,6 @@ int main(int argc, char** argv) {
     if (options.app.check_config) return {};
     if (options.list_categories) return ListCategories(*config);
     if (!options.offline.input.empty()) return PerceiveFile(options.offline, *config);
-    return Serve(*config, options.app.lcm_url);
+    return Serve(*config, options.app);
   });
 }

@@ -14,7 +14,7 @@ using namespace beckon;
 
 Status Serve(const AppOptions& app, const pose::PoseConfig& config) {
   RunLoop loop(/*handle_signals=*/true);
-  auto bus = Bus::Open(app.lcm_url);
+  auto bus = OpenBus(app, "pose");
   if (!bus) return bus.error();
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   pose::PoseService service(**bus, loop, config);

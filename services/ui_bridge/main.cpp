@@ -28,7 +28,7 @@ Status Run(Options& options, std::vector<std::unique_ptr<ui_bridge::FrontEndFact
   if (options.app.check_config) return {};
 
   RunLoop loop(/*handle_signals=*/true);
-  auto bus = Bus::Open(options.app.lcm_url);
+  auto bus = OpenBus(options.app, "ui_bridge");
   if (!bus) return bus.error();
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   const SystemClock clock;

@@ -174,7 +174,6 @@ class Service::Line final : public DialogueOutput, public FrontEndSink {
   template <typename T>
   void PublishSealed(T message) {
     message.seal.sender = device_;
-    message.seal.counter = ++service_.sent_;
     Publish(message);
   }
 

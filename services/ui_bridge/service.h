@@ -54,7 +54,6 @@ class Service {
   RunLoop& loop_;
   const Clock& clock_;
   const Clock& steady_;
-  int64_t sent_ = 0;  // sealed messages
   std::vector<std::unique_ptr<Line>> lines_;
 };
 

@@ -6,6 +6,8 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "tests/base/trust/temporary_keys.h"
+
 namespace beckon {
 namespace {
 
@@ -51,6 +53,34 @@ TEST(Bus, SurvivesAHandlerThatThrows) {
   HandleOne(*bus);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(bus->refused(), 1);
+}
+
+TEST(Bus, ASignedOneBelievesItselfAndNobodyUnsigned) {
+  const trust::TemporaryKeys keys("kitchen");
+  const SystemClock clock;
+  const SteadyClock steady;
+  auto bus = *Bus::Open("memq://", std::make_unique<trust::Guard>(
+                                       keys.folder(), **keys.folder().Own(), "", clock, steady));
+  std::vector<msg::TaskStatus> got;
+  bus->Subscribe<msg::TaskStatus>(
+      [&](msg::TaskStatus status) { got.push_back(std::move(status)); });
+  ASSERT_TRUE(bus->Publish(Example()).ok());
+  HandleOne(*bus);
+  ASSERT_EQ(got.size(), 1u);
+  EXPECT_EQ(got[0].seal.sender, "kitchen");
+  EXPECT_EQ(bus->refused(), 0);
+}
+
+TEST(Bus, CountersOfSealsGrowWithoutKeysToo) {
+  auto bus = *Bus::Open("memq://");
+  std::vector<int64_t> counters;
+  bus->Subscribe<msg::TaskStatus>(
+      [&](const msg::TaskStatus& status) { counters.push_back(status.seal.counter); });
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(bus->Publish(Example()).ok());
+    HandleOne(*bus);
+  }
+  EXPECT_LT(counters[0], counters[1]);
 }
 
 TEST(Bus, SaysWhatIsWrongWithAnUrl) {

@@ -8,6 +8,7 @@
 #include "tools/beckon/demo.h"
 #include "tools/beckon/doctor.h"
 #include "tools/beckon/fleet.h"
+#include "tools/beckon/keys_command.h"
 #include "tools/beckon/log_tools.h"
 #include "tools/beckon/profile.h"
 
@@ -64,6 +65,7 @@ void AddDemo(CLI::App& app, DemoOptions& o) {
 struct Options {
   AppOptions app;
   DemoOptions demo;
+  KeysOptions keys;
   std::string db, profile, out, log;
   double speed = 1;
   bool hash = false;
@@ -90,7 +92,15 @@ void AddOthers(CLI::App& app, Options& o) {
 
 Result<int> Run(const CLI::App& app, Options& o) {
   if (app.got_subcommand("demo")) return RunDemo(o.demo);
-  if (app.got_subcommand("run")) return RunProfile(o.profile, o.app.lcm_url);
+  if (app.got_subcommand("run")) {
+    setenv("BECKON_KEYS", o.app.keys.c_str(), 1);  // for its processes
+    return RunProfile(o.profile, o.app.lcm_url);
+  }
+  if (app.got_subcommand("keys")) {
+    o.keys.folder = o.app.keys;
+    if (auto done = RunKeys(app, o.keys); !done) return done.error();
+    return 0;
+  }
   if (app.got_subcommand("doctor")) {
     const auto findings = Examine({.lcm_url = o.app.lcm_url, .db = o.db, .bin_dir = OwnBinDir()});
     std::fputs(Render(findings).c_str(), stdout);
@@ -115,6 +125,7 @@ int RunBeckon(int argc, char** argv) {
   app.fallthrough();
   AddDemo(app, options.demo);
   AddOthers(app, options);
+  AddKeys(app, options.keys);
   int code = 0;
   const int status = RunApp(app, argc, argv, options.app, [&]() -> Status {
     auto result = Run(app, options);

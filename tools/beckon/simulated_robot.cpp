@@ -11,7 +11,6 @@ std::vector<msg::TaskStatus> SimulatedRobot::OnTask(const msg::Task& task, Utime
   const auto say = [&](msg::TaskState state, const std::string& text) {
     status.state = state;
     status.text = text;
-    status.seal.counter = ++sent_;
     statuses.push_back(status);
   };
   if (done_.contains(task.task_id)) {

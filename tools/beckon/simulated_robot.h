@@ -24,7 +24,6 @@ class SimulatedRobot {
  private:
   std::set<std::string> done_;  // task ids
   bool stopped_ = false;
-  int64_t sent_ = 0;
 };
 
 }  // namespace beckon::tool

@@ -28,6 +28,7 @@ Guard::Guard(KeyFolder folder, OwnKey own, const std::string& counter_file, cons
 
 void Guard::Stamp(msg::Seal& seal, bool may_last) {
   const Utime now = clock_.Now();
+  if (seal.sender.empty()) seal.sender = own_.node.name;
   seal.counter = counter_.Next(now);
   if (seal.expires_utime == 0 && !may_last) seal.expires_utime = now + kLifetime;
   seal.key_id = IdOf(own_.node.key);

@@ -118,7 +118,6 @@ class BciFrontEnd final : public FrontEnd, private TrialsOutput {
     msg::Stimulus stamped = stimulus;
     stamped.utime = clock_.Now() - (steady_.Now() - stimulus.utime);
     stamped.seal.sender = setup_.device;
-    stamped.seal.counter = ++sent_;
     if (auto sent = setup_.bus.Publish(stamped); !sent) spdlog::error("{}", sent.error().message);
   }
   void Answer(const msg::Query& query, const std::vector<double>& likelihoods,
@@ -237,7 +236,6 @@ class BciFrontEnd final : public FrontEnd, private TrialsOutput {
   std::optional<RunLoop::TimerId> tick_;
   std::string session_id_;
   std::string shown_;
-  int64_t sent_ = 0;
   bool in_session_ = false;
   bool ended_ = false;
   int sessions_ = 0;

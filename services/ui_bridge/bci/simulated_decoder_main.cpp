@@ -21,7 +21,7 @@ Status Run(const AppOptions& app, ui_bridge::bci::SimulatedDecoderConfig config,
   config.user.category = want.substr(colon + 1);
   if (app.check_config) return {};
   RunLoop loop(/*handle_signals=*/true);
-  auto bus = Bus::Open(app.lcm_url);
+  auto bus = OpenBus(app, "simulated_decoder");
   if (!bus) return bus.error();
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   const SystemClock clock;
