@@ -399,6 +399,9 @@ struct Lease {
   Seal seal;
 };
 
+/// Most counters of a STATUS.
+inline constexpr int kMaxCounters = 128;
+
 struct Counter {
   std::string name;
   int64_t value = 0;

@@ -8,7 +8,6 @@
 namespace beckon {
 namespace codec {
 
-constexpr int kMaxCounters = 128;
 constexpr int kMaxHost = 256;
 
 static void Walk(Walker& w, const status_t*) {
@@ -18,7 +17,7 @@ static void Walk(Walker& w, const status_t*) {
   w.Skip(4 + 8);
   w.String("build", kMaxText);
   w.String("state", kMaxText);
-  const int32_t counters = w.Count("n_counters", kMaxCounters);
+  const int32_t counters = w.Count("n_counters", msg::kMaxCounters);
   for (int32_t i = 0; i < counters && w.ok(); ++i) {
     w.String("counter", kMaxName);
     w.Skip(8);
@@ -32,7 +31,7 @@ static Status Check(const msg::Status& status) {
       .Text(status.host, "host", kMaxHost)
       .Text(status.build, "build")
       .Text(status.state, "state")
-      .Count(status.counters.size(), "counters", kMaxCounters);
+      .Count(status.counters.size(), "counters", msg::kMaxCounters);
   for (const auto& counter : status.counters) rules.Name(counter.name, "counter");
   return rules;
 }

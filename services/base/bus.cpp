@@ -16,11 +16,19 @@ struct Bus::Handler {
   // Called from LCM's C code: nothing may be thrown through it.
   void OnMessage(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     ++bus->received_;
+    ChannelTraffic& traffic = bus->traffic_[channel];
+    ++traffic.received;
+    traffic.received_bytes += buffer->data_size;
+    const Utime wait_us = SystemClock().Now() - buffer->recv_utime;
+    traffic.wait_us_max = std::max(traffic.wait_us_max, wait_us);
+    const Stopwatch stopwatch;
     try {
       handle({static_cast<const uint8_t*>(buffer->data), buffer->data_size});
     } catch (const std::exception& e) {
-      bus->Refuse(channel, std::string("handler failed: ") + e.what());
+      bus->Refuse(channel, refusal::kHandler, std::string("handler failed: ") + e.what());
     }
+    const auto handler_us = static_cast<Utime>(stopwatch.Milliseconds() * 1000);
+    traffic.handler_us_max = std::max(traffic.handler_us_max, handler_us);
   }
 };
 
@@ -49,17 +57,27 @@ bool Bus::Believe(const char* channel, const msg::Seal& seal, const trust::Deman
                   std::span<const uint8_t> bytes) {
   if (guard_ == nullptr) return true;
   const auto rejection = guard_->Check(channel, seal, demand, bytes);
-  if (rejection) Refuse(channel, rejection->reason + ": " + rejection->detail);
+  if (rejection) Refuse(channel, rejection->reason, rejection->detail);
   return !rejection;
 }
 
-void Bus::Refuse(const std::string& channel, const std::string& detail) {
+void Bus::Refuse(const std::string& channel, const std::string& reason, const std::string& detail) {
   ++refused_;
-  const int64_t count = ++refused_by_channel_[channel];
+  const int64_t count = ++traffic_[channel].refused[reason];
   // The first few, then each power of two: a flood must not fill the log.
   if (count <= 8 || (count & (count - 1)) == 0) {
-    spdlog::warn("{}: refused message ({} so far): {}", channel, count, detail);
+    spdlog::warn("{}: refused message ({}, {} so far): {}", channel, reason, count, detail);
   }
+}
+
+void Bus::ForgetPeaks() {
+  for (auto& [channel, traffic] : traffic_) traffic.ForgetPeaks();
+}
+
+void Bus::NoteStreamed(const char* channel, int64_t seq, Utime stamp) {
+  ChannelTraffic& traffic = traffic_[channel];
+  traffic.NoteSeq(seq);
+  traffic.age_us_max = std::max(traffic.age_us_max, SystemClock().Now() - stamp);
 }
 
 int Bus::fd() const { return lcm_->getFileno(); }
@@ -71,6 +89,9 @@ Status Bus::PublishBytes(const char* channel, const std::vector<uint8_t>& bytes)
     return Error{std::string(channel) + ": LCM could not send " + std::to_string(bytes.size()) +
                  " bytes"};
   }
+  ChannelTraffic& traffic = traffic_[channel];
+  ++traffic.sent;
+  traffic.sent_bytes += static_cast<int64_t>(bytes.size());
   return {};
 }
 

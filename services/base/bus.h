@@ -4,13 +4,14 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lcmtypes/codec.h"
+#include "services/base/bus_traffic.h"
+#include "services/base/refusal.h"
 #include "services/base/result.h"
 #include "services/base/trust/guard.h"
 
@@ -60,18 +61,21 @@ class Bus {
         Codec<T>::kChannel, queue,
         [this, handler = std::move(handler)](std::span<const uint8_t> bytes) {
           auto message = Codec<T>::Decode(bytes);
-          if (!message) return Refuse(Codec<T>::kChannel, message.error().message);
+          if (!message)
+            return Refuse(Codec<T>::kChannel, refusal::kMalformed, message.error().message);
           if constexpr (requires { message->seal; }) {
             if (!Believe(Codec<T>::kChannel, message->seal, trust::DemandOf(*message), bytes))
               return;
           }
+          if constexpr (requires { message->seq; })
+            NoteStreamed(Codec<T>::kChannel, message->seq, message->utime);
           handler(*std::move(message));
         });
   }
 
   /// Counts and logs something refused; services use it for messages that are well formed but wrong
-  /// (a stale answer). `reason` is a short key, `detail` is for people.
-  void Refuse(const std::string& channel, const std::string& detail);
+  /// (a stale answer). `reason` is a key of refusal.h, `detail` is for people.
+  void Refuse(const std::string& channel, const std::string& reason, const std::string& detail);
 
   /// For RunLoop::AddFd: readable when HandleReadable has something to do.
   int fd() const;
@@ -80,8 +84,9 @@ class Bus {
   /// Messages received, and those refused, since the start.
   int64_t received() const { return received_; }
   int64_t refused() const { return refused_; }
-  /// Refusals by channel.
-  const std::map<std::string, int64_t>& refused_by_channel() const { return refused_by_channel_; }
+  /// All of it by channel; the peaks are of the time since ForgetPeaks.
+  const BusTraffic& traffic() const { return traffic_; }
+  void ForgetPeaks();
 
  private:
   using BytesHandler = std::function<void(std::span<const uint8_t>)>;
@@ -93,6 +98,7 @@ class Bus {
                std::span<const uint8_t> bytes);
   Status PublishBytes(const char* channel, const std::vector<uint8_t>& bytes);
   void SubscribeBytes(const char* channel, int queue, BytesHandler handler);
+  void NoteStreamed(const char* channel, int64_t seq, Utime stamp);
 
   std::unique_ptr<lcm::LCM> lcm_;
   std::unique_ptr<trust::Guard> guard_;  // null: messages are not signed
@@ -100,7 +106,7 @@ class Bus {
   std::vector<std::unique_ptr<Handler>> handlers_;
   int64_t received_ = 0;
   int64_t refused_ = 0;
-  std::map<std::string, int64_t> refused_by_channel_;
+  BusTraffic traffic_;
 };
 
 }  // namespace beckon

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <fstream>
 #include <utility>
 
 #include "services/base/app.h"
@@ -18,37 +17,29 @@ std::string HostName() {
   return name.data();
 }
 
-int64_t ResidentKilobytes() {
-  std::ifstream statm("/proc/self/statm");
-  int64_t total_pages = 0, resident_pages = 0;
-  statm >> total_pages >> resident_pages;
-  return resident_pages * (sysconf(_SC_PAGESIZE) / 1024);
-}
-
 }  // namespace
 
 StatusReporter::StatusReporter(std::string service, Bus& bus, RunLoop& loop,
                                std::function<void(msg::Status&)> fill)
-    : loop_(loop) {
-  msg::Status common;
-  common.service = std::move(service);
-  common.host = HostName();
-  common.pid = getpid();
-  common.started_utime = SystemClock().Now();
-  common.build = VersionString();
-  timer_ = loop.Every(kSecond, [&bus, common = std::move(common), fill = std::move(fill)] {
-    msg::Status status = common;
-    status.utime = SystemClock().Now();
-    status.counters = {
-        {"received", bus.received()}, {"refused", bus.refused()}, {"rss_kb", ResidentKilobytes()}};
-    for (const auto& [channel, count] : bus.refused_by_channel()) {
-      status.counters.push_back({"refused." + channel, count});
-    }
-    fill(status);
-    if (auto sent = bus.Publish(status); !sent) spdlog::error("{}", sent.error().message);
-  });
+    : bus_(bus), loop_(loop), fill_(std::move(fill)), counters_(SteadyClock().Now()) {
+  common_.service = std::move(service);
+  common_.host = HostName();
+  common_.pid = getpid();
+  common_.started_utime = SystemClock().Now();
+  common_.build = VersionString();
+  timer_ = loop.Every(kSecond, [this] { Report(); });
 }
 
 StatusReporter::~StatusReporter() { loop_.Cancel(timer_); }
+
+void StatusReporter::Report() {
+  msg::Status status = common_;
+  status.utime = SystemClock().Now();
+  status.counters = counters_.Take(bus_.traffic(), ProcessUsage::Now(), SteadyClock().Now());
+  bus_.ForgetPeaks();
+  fill_(status);
+  if (status.counters.size() > msg::kMaxCounters) status.counters.resize(msg::kMaxCounters);
+  if (auto sent = bus_.Publish(status); !sent) spdlog::error("{}", sent.error().message);
+}
 
 }  // namespace beckon

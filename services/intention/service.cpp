@@ -133,7 +133,9 @@ struct Service::State {
   void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Profile& profile) { Send(profile, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
-  void PublishOne(const Refused& refused) { bus.Refuse(refused.channel, refused.detail); }
+  void PublishOne(const Refused& refused) {
+    bus.Refuse(refused.channel, refused.reason, refused.detail);
+  }
 
   void Publish(const Actions& actions) {
     for (const Outgoing& action : actions) {

@@ -256,7 +256,7 @@ void Service::Publish(Outcome outcome) {
   if (outcome.idle) return;
   if (!outcome.damage.empty()) {
     ++counters_.damaged;
-    bus_.Refuse(Codec<msg::Frame>::kChannel, outcome.damage);
+    bus_.Refuse(Codec<msg::Frame>::kChannel, refusal::kDamaged, outcome.damage);
     return;
   }
   if (!outcome.failure.empty()) {

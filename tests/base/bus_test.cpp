@@ -53,6 +53,46 @@ TEST(Bus, SurvivesAHandlerThatThrows) {
   HandleOne(*bus);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(bus->refused(), 1);
+  EXPECT_EQ(bus->traffic().at("BECKON_TASK_STATUS").refused.at("handler"), 1);
+}
+
+TEST(Bus, CountsEachChannelsTrafficAndWhyMessagesWereRefused) {
+  auto bus = *Bus::Open("memq://");
+  bus->Subscribe<msg::TaskStatus>([](const msg::TaskStatus&) {});
+  ASSERT_TRUE(bus->Publish(Example()).ok());
+  HandleOne(*bus);
+  bus->Refuse("BECKON_TASK_STATUS", refusal::kStale, "of another task");
+  bus->Refuse("BECKON_TASK_STATUS", refusal::kStale, "of another task");
+  bus->Refuse("BECKON_ANSWER", refusal::kUnknown, "to no query");
+  const ChannelTraffic& traffic = bus->traffic().at("BECKON_TASK_STATUS");
+  EXPECT_EQ(traffic.sent, 1);
+  EXPECT_EQ(traffic.received, 1);
+  EXPECT_GT(traffic.received_bytes, 0);
+  EXPECT_EQ(traffic.received_bytes, traffic.sent_bytes);
+  EXPECT_EQ(traffic.refused.at("stale"), 2);
+  EXPECT_EQ(bus->refused(), 3);
+}
+
+TEST(Bus, MeasuresTheAgeOfStreamsUntilTheirHandling) {
+  auto bus = *Bus::Open("memq://");
+  bus->Subscribe<msg::Scene>([](const msg::Scene&) {});
+  msg::Scene scene;
+  scene.source = "somewhere";
+  scene.width = 4;
+  scene.height = 3;
+  scene.intrinsics = {.fx = 500, .fy = 500, .cx = 2, .cy = 1};
+  for (int64_t seq : {1, 4}) {
+    scene.seq = scene.frame_seq = seq;
+    scene.utime = SystemClock().Now() - 3 * kSecond;
+    const auto sent = bus->Publish(scene);
+    ASSERT_TRUE(sent.ok()) << sent.error().message;
+    HandleOne(*bus);
+  }
+  EXPECT_GE(bus->traffic().at("BECKON_SCENE").age_us_max, 3 * kSecond);
+  EXPECT_EQ(bus->traffic().at("BECKON_SCENE").lost, 2);
+  bus->ForgetPeaks();
+  EXPECT_EQ(bus->traffic().at("BECKON_SCENE").age_us_max, 0);
+  EXPECT_EQ(bus->traffic().at("BECKON_SCENE").lost, 2);
 }
 
 TEST(Bus, ASignedOneBelievesItselfAndNobodyUnsigned) {

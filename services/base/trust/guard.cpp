@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "services/base/refusal.h"
+
 namespace beckon::trust {
 namespace {
 
@@ -63,32 +65,35 @@ std::optional<Rejection> Guard::Check(const std::string& channel, const msg::Sea
                                       const Demand& demand, std::span<const uint8_t> encoded) {
   LookForChanges();
   if (std::ranges::all_of(seal.key_id, [](uint8_t byte) { return byte == 0; }))
-    return Rejection{"unsigned",
+    return Rejection{refusal::kUnsigned,
                      "from '" + seal.sender + "'; this machine believes signed messages only"};
   const auto known = trusted_.find(seal.key_id);
   if (known == trusted_.end()) {
     const auto revoked = revoked_.find(seal.key_id);
     if (revoked != revoked_.end())
-      return Rejection{"revoked", "by the revoked key of " + revoked->second};
-    return Rejection{"unknown_key", "key " + ToText(seal.key_id) + " of '" + seal.sender +
-                                        "' is not trusted here; see beckon keys trust"};
+      return Rejection{refusal::kRevoked, "by the revoked key of " + revoked->second};
+    return Rejection{refusal::kUnknownKey, "key " + ToText(seal.key_id) + " of '" + seal.sender +
+                                               "' is not trusted here; see beckon keys trust"};
   }
   const Node& node = known->second;
   if (!node.may.HasAnyOf(demand.one_of))
-    return Rejection{"not_allowed", node.name + " may not say this; see beckon keys list"};
+    return Rejection{refusal::kNotAllowed, node.name + " may not say this; see beckon keys list"};
   const Utime now = clock_.Now();
   if (!demand.may_last && seal.expires_utime < now) {
-    return Rejection{"expired", "from '" + seal.sender + "', " + Seconds(now - seal.expires_utime) +
-                                    " ago; if it is new the machines' clocks differ"};
+    return Rejection{refusal::kExpired, "from '" + seal.sender + "', " +
+                                            Seconds(now - seal.expires_utime) +
+                                            " ago; if it is new the machines' clocks differ"};
   }
   if (!IsSignedBy(encoded, node.key))
-    return Rejection{"forged", "the signature is not that of " + node.name + ", or it was altered"};
+    return Rejection{refusal::kForged,
+                     "the signature is not that of " + node.name + ", or it was altered"};
   ReplayWindow* window = WindowOf(channel, seal);
   if (window == nullptr)
-    return Rejection{"too_many_senders", node.name + " speaks under more than " +
-                                             std::to_string(kMostSenders) + " names"};
+    return Rejection{refusal::kTooManySenders, node.name + " speaks under more than " +
+                                                   std::to_string(kMostSenders) + " names"};
   if (!demand.may_repeat && !window->IsFresh(seal.counter))
-    return Rejection{"replayed", "from '" + seal.sender + "': seen before, or overtaken by many"};
+    return Rejection{refusal::kReplayed,
+                     "from '" + seal.sender + "': seen before, or overtaken by many"};
   window->Note(seal.counter);
   return std::nullopt;
 }

@@ -14,8 +14,7 @@
 
 namespace beckon::trust {
 
-/// Why a message is not to be believed. `reason` is a short key for counting: unsigned,
-/// unknown_key, revoked, not_allowed, expired, replayed, forged.
+/// Why a message is not to be believed. `reason` is a key of refusal.h.
 struct Rejection {
   std::string reason;
   std::string detail;

@@ -23,9 +23,10 @@ Conversation::~Conversation() = default;
 
 Actions Conversation::Taken() { return std::exchange(actions_, {}); }
 
-void Conversation::Refuse(const std::string& channel, const std::string& detail) {
+void Conversation::Refuse(const std::string& channel, const std::string& reason,
+                          const std::string& detail) {
   ++counters_.refused;
-  actions_.push_back(Refused{channel, detail});
+  actions_.push_back(Refused{channel, reason, detail});
 }
 
 msg::Session Conversation::Event(msg::SessionKind kind, Utime now) const {
@@ -116,14 +117,14 @@ Actions Conversation::OnAnswer(const msg::Answer& answer, Utime now) {
   if (found == talks_.end()) {
     ++counters_.stale_answers;
     actions_.push_back(Refused{
-        kAnswerChannel,
+        kAnswerChannel, refusal::kStale,
         "answer to query " + std::to_string(answer.query_id) + ", which is not the current one"});
     if (const msg::Session* ended = Ended(answer.session_id)) actions_.push_back(*ended);
     return Taken();
   }
   Talk& talk = *found->second;
   if (Status right = CheckLikelihoods(answer.likelihoods, talk.query->options.size()); !right) {
-    Refuse(kAnswerChannel,
+    Refuse(kAnswerChannel, refusal::kMalformed,
            "answer to query " + std::to_string(answer.query_id) + ": " + right.error().message);
     return Taken();
   }
@@ -161,7 +162,7 @@ Actions Conversation::OnSession(const msg::Session& request, Utime now) {
     if (const msg::Session* ended = Ended(request.session_id)) {
       actions_.push_back(*ended);
     } else {
-      Refuse(kSessionChannel,
+      Refuse(kSessionChannel, refusal::kStale,
              "request for session '" + request.session_id + "', which does not run");
     }
     return Taken();

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "services/base/refusal.h"
 #include "services/intention/core/interview.h"
 #include "services/intention/core/label_match.h"
 #include "services/intention/core/memory.h"
@@ -38,9 +39,10 @@ struct ConversationConfig {
   Phrases phrases = English();
 };
 
-/// A message that was well formed but wrong.
+/// A message that was well formed but wrong, or that could not be heeded.
 struct Refused {
   std::string channel;
+  std::string reason;  // a of services/base/refusal.h
   std::string detail;
 };
 
@@ -157,7 +159,7 @@ class Conversation {
   void AnnounceRunning(Talk& talk, Utime now);
   msg::Session Event(msg::SessionKind kind, Utime now) const;
   std::string DoneText(const std::string& task) const;
-  void Refuse(const std::string& channel, const std::string& detail);
+  void Refuse(const std::string& channel, const std::string& reason, const std::string& detail);
   void MatchPoses(Talk& talk) const;
   /// Whether a pose may be this object's.
   bool IsNear(const msg::ObjectPose& pose, const Followed& object) const;

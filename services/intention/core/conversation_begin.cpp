@@ -35,7 +35,7 @@ Actions Conversation::Recover(Utime now) {
   if (const auto stopped = memory_.Stopped(); stopped) stopped_ = *stopped;
   const auto open = memory_.OpenTasks();
   if (!open) {
-    Refuse(kSessionChannel, open.error().message);
+    Refuse(kSessionChannel, refusal::kStorage, open.error().message);
   } else {
     for (const msg::Task& task : *open) {
       tasks_.insert_or_assign(
@@ -71,7 +71,7 @@ void Conversation::Start(const msg::Session& request, Utime now) {
     return;
   }
   const auto known = memory_.FindSession(request.session_id);
-  if (!known) return Refuse(kSessionChannel, known.error().message);
+  if (!known) return Refuse(kSessionChannel, refusal::kStorage, known.error().message);
   if (known->has_value()) {
     msg::Session confirmed = Event(msg::SessionKind::kConfirmed, now);
     confirmed.session_id = request.session_id;
@@ -83,8 +83,9 @@ void Conversation::Start(const msg::Session& request, Utime now) {
     return;
   }
   if (static_cast<int>(talks_.size()) >= config_.max_sessions) {
-    return Refuse(kSessionChannel, "a session of '" + request.user + "' is one more than " +
-                                       std::to_string(config_.max_sessions) + " at a time");
+    return Refuse(kSessionChannel, refusal::kTooMany,
+                  "a session of '" + request.user + "' is one more than " +
+                      std::to_string(config_.max_sessions) + " at a time");
   }
   ++counters_.sessions;
   auto& talk = talks_[request.user] = std::make_unique<Talk>();
@@ -139,14 +140,15 @@ void Conversation::CheckCategory(const msg::SceneObject& object) {
   ++counters_.unknown_categories;
   if (unknown_categories_.size() >= kMaxCategories || !unknown_categories_.insert(name).second)
     return;
-  Refuse("BECKON_SCENE", "object " + std::to_string(object.id) + " is of the unknown category '" +
-                             name + "', it counts as Unknown; add it to affordances.toml");
+  Refuse("BECKON_SCENE", refusal::kUnknown,
+         "object " + std::to_string(object.id) + " is of the unknown category '" + name +
+             "', it counts as Unknown; add it to affordances.toml");
 }
 
 InterviewInput Conversation::InputOf(Talk& talk, Utime now) {
   InterviewInput input;
   const auto sessions = memory_.SessionsOf(talk.user);
-  if (!sessions) Refuse(kSessionChannel, sessions.error().message);
+  if (!sessions) Refuse(kSessionChannel, refusal::kStorage, sessions.error().message);
   if (sessions) input.history = ToHistory(*sessions, affordances_);
   input.table = TableOf(talk);
   input.device = talk.device;
@@ -186,7 +188,8 @@ void Conversation::MatchPoses(Talk& talk) const {
 
 Actions Conversation::OnInterface(const msg::Interface& announced, Utime) {
   if (devices_.size() >= kMostDevices && !devices_.contains(announced.device)) {
-    Refuse("BECKON_INTERFACE", "'" + announced.device + "' is one front end too many");
+    Refuse("BECKON_INTERFACE", refusal::kTooMany,
+           "'" + announced.device + "' is one front end too many");
     return Taken();
   }
   DeviceModel& model = devices_[announced.device];

@@ -103,7 +103,7 @@ void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool 
   ++counters_.abandoned;
   if (keep_labels && talk.interview) {
     if (Status kept = memory_.CommitLabels(LabelsOf(talk, now)); !kept) {
-      Refuse(kSessionChannel, kept.error().message);
+      Refuse(kSessionChannel, refusal::kStorage, kept.error().message);
     }
   }
   keep_labels ? EndLabels(talk, now) : RetractLabels(talk, now);
@@ -134,7 +134,7 @@ void Conversation::Stop(const msg::Session& request, Utime now) {
   for (Talk* talk : Talks()) RetractLabels(*talk, now);
   talks_.clear();
   if (Status set = memory_.SetStopped(true, now); !set)
-    Refuse(kSessionChannel, set.error().message);
+    Refuse(kSessionChannel, refusal::kStorage, set.error().message);
   RevokeTasks(now);
 }
 
@@ -149,7 +149,7 @@ void Conversation::Resume(const msg::Session& request, Utime now) {
   // Also remembered while nothing is stopped: a late duplicate must not undo a later stop.
   if (Seen(request) || !stopped_) return;
   if (Status set = memory_.SetStopped(false, now); !set)
-    return Refuse(kSessionChannel, set.error().message);
+    return Refuse(kSessionChannel, refusal::kStorage, set.error().message);
   stopped_ = false;
   Announce(Event(msg::SessionKind::kIdle, now), now);
 }
@@ -162,7 +162,7 @@ Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
       status.state == msg::TaskState::kDone || status.state == msg::TaskState::kFailed;
   if (pending->second.revoked && !over) return Taken();
   if (Status noted = memory_.NoteTask(status.task_id, status.state, now); !noted) {
-    Refuse(kTaskStatusChannel, noted.error().message);
+    Refuse(kTaskStatusChannel, refusal::kStorage, noted.error().message);
   }
   tasks_.erase(pending);
   return Taken();
@@ -180,7 +180,7 @@ void Conversation::RepeatTasks(Utime now) {
       actions_.push_back(msg::TaskStatus{
           now, id, msg::TaskState::kExpired, Finished(config_.phrases.no_robot), {}});
       if (Status noted = memory_.NoteTask(id, msg::TaskState::kExpired, now); !noted) {
-        Refuse(kTaskStatusChannel, noted.error().message);
+        Refuse(kTaskStatusChannel, refusal::kStorage, noted.error().message);
       }
       entry = tasks_.erase(entry);
       continue;

@@ -11,7 +11,8 @@ void Conversation::TellProfile(const std::string& user, Utime now) {
   const auto users = memory_.Users();
   const auto sessions = memory_.SessionsOf(user);
   if (!users || !sessions)
-    return Refuse("BECKON_SESSION", (users ? sessions.error() : users.error()).message);
+    return Refuse("BECKON_SESSION", refusal::kStorage,
+                  (users ? sessions.error() : users.error()).message);
   msg::Profile profile;
   profile.utime = now;
   profile.user = user;

@@ -55,7 +55,7 @@ std::vector<TableObject> Conversation::TableOf(Talk& talk) {
   const auto& objects = talk.table->objects();
   if (talk.remembered.size() < objects.size()) {
     const auto labels = memory_.LabelsOf(talk.table->source());
-    if (!labels) Refuse(kSessionChannel, labels.error().message);
+    if (!labels) Refuse(kSessionChannel, refusal::kStorage, labels.error().message);
     for (size_t i = talk.remembered.size(); i < objects.size(); ++i) {
       CheckCategory(objects[i].object);
       const LabelRecord* label =
@@ -136,7 +136,7 @@ void Conversation::RevokeTask(PendingTask& pending, const std::string& text, Uti
   actions_.push_back(*pending.revoked);
   if (Status noted = memory_.NoteTask(pending.task.task_id, msg::TaskState::kRevoked, now);
       !noted) {
-    Refuse(kSessionChannel, noted.error().message);
+    Refuse(kSessionChannel, refusal::kStorage, noted.error().message);
   }
 }
 

@@ -136,7 +136,7 @@ class BciFrontEnd final : public FrontEnd, private TrialsOutput {
   void Hear(const msg::Decoding& decoding) {
     const Utime began = trials_.trial_began(), now = steady_.Now();
     if (const auto refused = trials_.OnDecoding(decoding, now))
-      return setup_.bus.Refuse(kDecodingChannel, refused->detail);
+      return setup_.bus.Refuse(kDecodingChannel, ReasonOf(refused->why), refused->detail);
     decoders_.Time(static_cast<double>(now - began) / kSecond);
     if (trials_.repetitions() > 0 && trials_.asking() != Asking::kWatch)
       Print(RenderPosterior(trials_.layout(), trials_.Posterior(), trials_.repetitions()));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/base/refusal.h"
+
 namespace beckon::ui_bridge::bci {
 namespace {
 
@@ -161,6 +163,21 @@ void Trials::StartTrial(Utime now) {
   trial_ = Trial{stimulus, now};
   ++counters_.trials;
   output_.Stimulate(stimulus);
+}
+
+const char* ReasonOf(Refusal why) {
+  switch (why) {
+    case Refusal::kForeign:
+    case Refusal::kOtherDecoder:
+      return refusal::kForeign;
+    case Refusal::kStale:
+      return refusal::kStale;
+    case Refusal::kDuplicate:
+      return refusal::kDuplicate;
+    case Refusal::kMalformed:
+      break;
+  }
+  return refusal::kMalformed;
 }
 
 std::optional<Refused> Trials::Check(const msg::Decoding& decoding) const {

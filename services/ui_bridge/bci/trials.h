@@ -55,6 +55,8 @@ enum class Asking {
 
 /// Why a decoding was refused.
 enum class Refusal { kForeign, kStale, kDuplicate, kOtherDecoder, kMalformed };
+/// The key by which it is counted (services/base/refusal.h).
+const char* ReasonOf(Refusal why);
 struct Refused {
   Refusal why;
   std::string detail;

@@ -166,8 +166,8 @@ class FrontEndTest : public ::testing::Test {
   }
 
   int64_t RefusedDecodings() const {
-    const auto found = bus_->refused_by_channel().find("BECKON_DECODING");
-    return found == bus_->refused_by_channel().end() ? 0 : found->second;
+    const auto found = bus_->traffic().find("BECKON_DECODING");
+    return found == bus_->traffic().end() ? 0 : found->second.Refused();
   }
   bool Requested(msg::SessionKind kind) const { return std::ranges::count(requests_, kind) > 0; }
   void Type(const std::string& line) {
