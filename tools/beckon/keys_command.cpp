@@ -43,8 +43,9 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 void PrintNode(const Node& node, const char* state) {
-  std::printf("%-20s %s  %-9s %s\n", node.name.c_str(), ToText(trust::IdOf(node.key)).c_str(),
-              state, Joined(node.may.Names()).c_str());
+  std::printf("%-20s %s  %-9s %s\n", node.name.c_str(),
+              trust::ToText(trust::IdOf(node.key)).c_str(), state,
+              Joined(node.may.Names()).c_str());
 }
 
 Status Make(const KeyFolder& folder, const KeysOptions& options, Roles may) {
