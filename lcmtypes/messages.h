@@ -275,6 +275,9 @@ enum class TaskState : int8_t {
   kRevoked = 6
 };
 
+/// "accepted", "running", "done", "failed", "expired", "revoked".
+const char* Name(TaskState state);
+
 struct TaskStatus {
   Utime utime = 0;
   std::string task_id;

@@ -6,6 +6,25 @@
 #include "lcmtypes/codec/parts.h"
 
 namespace beckon {
+
+const char* msg::Name(TaskState state) {
+  switch (state) {
+    case TaskState::kAccepted:
+      return "accepted";
+    case TaskState::kRunning:
+      return "running";
+    case TaskState::kDone:
+      return "done";
+    case TaskState::kFailed:
+      return "failed";
+    case TaskState::kExpired:
+      return "expired";
+    case TaskState::kRevoked:
+      return "revoked";
+  }
+  return "";
+}
+
 namespace codec {
 
 static void Walk(Walker& w, const task_status_t*) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -77,6 +79,15 @@ TEST(StatusCounters, NamesEachOnce) {
   std::set<std::string> names;
   for (const auto& counter : StatusCounters(0).Take(traffic, {}, kSecond))
     EXPECT_TRUE(names.insert(counter.name).second) << counter.name;
+}
+
+TEST(StatusCounters, AreAllDocumented) {
+  std::ifstream file(BECKON_SOURCE_DIR "/docs/protocol.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  BusTraffic traffic;
+  traffic["CHANNEL"] = {.received = 1, .sent = 1, .refused = {{"REASON", 1}}, .newest_seq = 1};
+  for (const auto& counter : StatusCounters(0).Take(traffic, {}, kSecond))
+    EXPECT_NE(text.find("`" + counter.name + "`"), std::string::npos) << counter.name;
 }
 
 TEST(ProcessUsage, IsOfThisProcess) {

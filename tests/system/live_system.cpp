@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string g_lcm_url;   // NOLINT: set once, by main
-std::string g_obstacle;  // NOLINT
+std::string g_lcm_url;       // NOLINT: set once, by main
+std::string g_bus_obstacle;  // NOLINT
+std::string g_obstacle;      // NOLINT
 
 std::string ReadText(const std::string& path) {
   std::ifstream file(path);
@@ -41,6 +42,7 @@ std::string FindObstacle(const tool::PrivateBus& bus) {
 }  // namespace
 
 const std::string& LcmUrl() { return g_lcm_url; }
+const std::string& BusObstacle() { return g_bus_obstacle; }
 const std::string& Obstacle() { return g_obstacle; }
 
 LiveSystem::LiveSystem(const std::string& db)
@@ -80,7 +82,8 @@ void LiveSystem::StartUser(const std::string& want) {
     ASSERT_EQ(RunProgram(truth.program, truth.args).code, 0);
   }
   config_.sessions = 1'000'000;
-  Start(tool::UiBridgeSpec(config_, {"simulated"}, want, false), tool::Supervisor::Restart::kAlways);
+  Start(tool::UiBridgeSpec(config_, {"simulated"}, want, false),
+        tool::Supervisor::Restart::kAlways);
 }
 
 bool LiveSystem::RunUntil(const std::function<bool()>& condition, double timeout_s) {
@@ -152,6 +155,7 @@ int main(int argc, char** argv) {
   if (!::testing::GTEST_FLAG(list_tests)) {
     const auto bus = beckon::tool::EnterPrivateBus();
     beckon::system_test::g_lcm_url = bus.lcm_url;
+    beckon::system_test::g_bus_obstacle = bus.isolated ? "" : bus.note;
     beckon::system_test::g_obstacle = beckon::system_test::FindObstacle(bus);
   }
   return RUN_ALL_TESTS();

@@ -18,7 +18,9 @@ namespace beckon::system_test {
 
 /// The bus that main() entered.
 const std::string& LcmUrl();
-/// Why nothing can be tested here; empty where it can.
+/// Why there is no such bus; empty where there is.
+const std::string& BusObstacle();
+/// Why the five processes cannot be tested here; empty where they can.
 const std::string& Obstacle();
 
 /// What the embedded scene's simulated user wants in these tests.

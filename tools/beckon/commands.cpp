@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <tuple>
 
 #include "services/base/app.h"
 #include "tools/beckon/demo.h"
@@ -11,6 +12,7 @@
 #include "tools/beckon/keys_command.h"
 #include "tools/beckon/log_tools.h"
 #include "tools/beckon/profile.h"
+#include "tools/beckon/top.h"
 
 namespace beckon::tool {
 namespace {
@@ -69,6 +71,9 @@ struct Options {
   std::string db, profile, out, log;
   double speed = 1;
   bool hash = false;
+  bool list = false;
+  ReplayPart part;
+  TopOptions top;
 };
 
 void AddOthers(CLI::App& app, Options& o) {
@@ -79,15 +84,41 @@ void AddOthers(CLI::App& app, Options& o) {
   app.add_subcommand("run", "Keeps a profile's processes running until Ctrl-C")
       ->add_option("PROFILE", o.profile, "TOML file, or a profile that ships: one-machine")
       ->required();
-  app.add_subcommand("record", "Writes all messages to a log (lcm-logger)")
+  app.add_subcommand("record",
+                     "Writes all messages to a log (lcm-logger), and LOG.index.json: what is in it")
       ->add_option("--out", o.out, "The log; must not exist")
       ->type_name("LOG")
       ->required();
   auto* replay = app.add_subcommand("replay", "Publishes a log again (lcm-logplayer)");
   replay->add_option("LOG", o.log, "Of 'beckon record' or lcm-logger")->required();
   replay->add_option("--speed", o.speed, "Times its own pace")->check(CLI::Range(0.01, 10.0));
+  auto* list = replay->add_flag("--list", o.list, "Say what is in it, and play nothing");
+  auto* session = replay
+                      ->add_option("--session", o.part.session,
+                                   "Only this conversation, by number or id of --list")
+                      ->type_name("N|ID")
+                      ->excludes(list);
+  for (const auto& [name, seconds, help] :
+       {std::tuple{"--from", &o.part.from_s, "Only from then on, seconds since its first message"},
+        std::tuple{"--to", &o.part.to_s, "Only until then, seconds since its first message"}}) {
+    replay->add_option(name, *seconds, help)
+        ->check(Within(0, 1e9))
+        ->type_name("S")
+        ->excludes(list)
+        ->excludes(session);
+  }
   replay->add_flag("--hash", o.hash, "Lock step with hashes: not part of this version");
-  app.add_subcommand("top", "Live view of all services: not part of this version");
+}
+
+void AddTop(CLI::App& app, TopOptions& o) {
+  auto* top = app.add_subcommand(
+      "top", "Live view of every process on the bus, and of the conversations. Keys: q leaves, " +
+                 std::string(kSortKeysHelp));
+  top->add_flag("--once", o.once, "Print one table and leave; exit code 1 where nothing is heard");
+  top->add_flag("--json", o.json, "The same as one JSON object");
+  top->add_option("--wait", o.wait_s, "Seconds that --once and --json listen")
+      ->check(Within(0.1, 3600))
+      ->capture_default_str();
 }
 
 Result<int> Run(const CLI::App& app, Options& o) {
@@ -106,12 +137,15 @@ Result<int> Run(const CLI::App& app, Options& o) {
     std::fputs(Render(findings).c_str(), stdout);
     return ExitCode(findings);
   }
-  if (app.got_subcommand("record")) return Record(o.out, o.app.lcm_url).error();
-  if (app.got_subcommand("top"))
-    return Error{"top: not part of this version; lcm-spy shows BECKON_STATUS"};
+  if (app.got_subcommand("record")) return Record(o.out, o.app.lcm_url);
+  if (app.got_subcommand("top")) return RunTop(o.top, o.app.lcm_url);
   if (o.hash)
     return Error{"replay --hash: not part of this version; 'beckon replay LOG' publishes the log"};
-  return Replay(o.log, o.app.lcm_url, o.speed).error();
+  if (o.list) {
+    if (auto listed = ListLog(o.log); !listed) return listed.error();
+    return 0;
+  }
+  return Replay(o.log, o.app.lcm_url, o.speed, o.part).error();
 }
 
 }  // namespace
@@ -126,6 +160,7 @@ int RunBeckon(int argc, char** argv) {
   AddDemo(app, options.demo);
   AddOthers(app, options);
   AddKeys(app, options.keys);
+  AddTop(app, options.top);
   int code = 0;
   const int status = RunApp(app, argc, argv, options.app, [&]() -> Status {
     auto result = Run(app, options);

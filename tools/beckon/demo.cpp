@@ -9,6 +9,7 @@
 
 #include "services/base/app.h"
 #include "services/base/run_loop.h"
+#include "services/base/status_reporter.h"
 #include "tools/beckon/bus_watch.h"
 #include "tools/beckon/catalogue.h"
 #include "tools/beckon/demo_options.h"
@@ -67,6 +68,12 @@ class Demo {
                    fleet_.run_dir.c_str());
     }
     return failure_.empty() ? 0 : 1;
+  }
+
+  /// For STATUS.
+  std::string State() const {
+    return "plays the robot, " + std::string(watch_.robot().stopped() ? "stopped, " : "") +
+           std::to_string(watch_.robot().tasks_done()) + " tasks done";
   }
 
  private:
@@ -281,6 +288,8 @@ Result<int> RunDemo(const DemoOptions& given) {
   fleet.page_socket = page.fd();
 
   Demo demo(options, fleet, *std::move(catalogue), loop, **bus);
+  StatusReporter reporter("demo", **bus, loop,
+                          [&demo](msg::Status& status) { status.state = demo.State(); });
   auto code = demo.Run();
   if (code && *code != 0) folder->Keep();
   return code;

@@ -42,7 +42,7 @@ struct ConversationConfig {
 /// A message that was well formed but wrong, or that could not be heeded.
 struct Refused {
   std::string channel;
-  std::string reason;  // a of services/base/refusal.h
+  std::string reason;  // one of services/base/refusal.h
   std::string detail;
 };
 

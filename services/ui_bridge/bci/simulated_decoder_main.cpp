@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "services/base/app.h"
+#include "services/base/status_reporter.h"
 #include "services/ui_bridge/bci/simulated_decoder.h"
 
 namespace {
@@ -26,6 +27,9 @@ Status Run(const AppOptions& app, ui_bridge::bci::SimulatedDecoderConfig config,
   loop.AddFd((*bus)->fd(), [&bus] { (*bus)->HandleReadable(); });
   const SystemClock clock;
   ui_bridge::bci::SimulatedDecoder decoder(config, **bus, loop, clock);
+  StatusReporter reporter("simulated_decoder", **bus, loop, [&decoder](msg::Status& status) {
+    status.state = std::to_string(decoder.decoded()) + " trials decoded";
+  });
   decoder.Begin();
   loop.Run();
   return {};

@@ -1,45 +1,16 @@
 #include "services/ui_bridge/switch/terminal_keys.h"
 
-#include <termios.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
-#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "services/base/raw_terminal.h"
+
 namespace beckon::ui_bridge {
 namespace {
-
-/// As it was before; restored when the process exits by whatever return or exit().
-std::optional<termios>& SavedTerminal() {
-  static std::optional<termios> saved;
-  return saved;
-}
-
-void RestoreTerminal() {
-  if (const auto saved = std::exchange(SavedTerminal(), std::nullopt)) {
-    tcsetattr(STDIN_FILENO, TCSANOW, &*saved);
-  }
-}
-
-/// Each key at once and unseen. Ctrl-C still ends the program, which restores the terminal; what
-/// would leave it without that (Ctrl-\\, Ctrl-Z) is off.
-void MakeRaw() {
-  termios terminal{};
-  if (isatty(STDIN_FILENO) != 1 || tcgetattr(STDIN_FILENO, &terminal) != 0) return;
-  static const bool registered = std::atexit(RestoreTerminal) == 0;
-  (void)registered;
-  SavedTerminal() = terminal;
-  terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  terminal.c_cc[VQUIT] = _POSIX_VDISABLE;
-  terminal.c_cc[VSUSP] = _POSIX_VDISABLE;
-  terminal.c_cc[VMIN] = 0;
-  terminal.c_cc[VTIME] = 0;
-  tcsetattr(STDIN_FILENO, TCSANOW, &terminal);
-}
 
 class TerminalKeys final : public SwitchSource {
  public:
@@ -50,7 +21,7 @@ class TerminalKeys final : public SwitchSource {
   }
 
   void Start() override {
-    MakeRaw();
+    MakeTerminalRaw();
     try {
       loop_.AddFd(STDIN_FILENO, [this] { Read(); });
       watching_ = true;

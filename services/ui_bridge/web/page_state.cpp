@@ -39,24 +39,6 @@ const char* EventName(msg::SessionKind kind) {
   }
 }
 
-const char* Name(msg::TaskState state) {
-  switch (state) {
-    case msg::TaskState::kAccepted:
-      return "accepted";
-    case msg::TaskState::kRunning:
-      return "running";
-    case msg::TaskState::kDone:
-      return "done";
-    case msg::TaskState::kFailed:
-      return "failed";
-    case msg::TaskState::kExpired:
-      return "expired";
-    case msg::TaskState::kRevoked:
-      return "revoked";
-  }
-  return "";
-}
-
 Json ObjectsJson(const std::vector<msg::ObjectRef>& objects) {
   Json list = Json::array();
   for (const auto& object : objects)
