@@ -1,5 +1,5 @@
 # Short verbs for people. Each installs what it needs first (Debian packages, through apt).
-.PHONY: demo test build model bench experiments format dependencies help
+.PHONY: demo test build package model bench experiments format dependencies help
 
 build_dir := build/release
 
@@ -7,6 +7,7 @@ help:
 	@echo "make demo    see it work: a table of objects, a short conversation, a task for the robot"
 	@echo "make test    build and run every test"
 	@echo "make build   release binaries in $(build_dir)/bin"
+	@echo "make package  Debian packages in $(build_dir)/packages; docs/deployment says what to do with them"
 	@echo "make model   the shipped model of categories, from its seed (five minutes)"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
 	@echo "make experiments  how good questions, fits, segments and categories are, as docs/experiments (half an hour)"
@@ -26,6 +27,9 @@ demo: build
 
 test: build
 	ctest --preset release --parallel 2
+
+package: build
+	cd $(build_dir) && cpack
 
 model: build
 	tools/make-model

@@ -16,14 +16,18 @@ function(beckon_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
 endfunction()
 
-# beckon_program(NAME SOURCES... LINK LIBRARIES...): installed to bin
+# beckon_program(NAME SOURCES... LINK LIBRARIES... [PACKAGE NAME]): installed to bin, in the package of its own name or that
+# one
 function(beckon_program name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "PACKAGE" "LINK" ${ARGN})
+  if(NOT ARG_PACKAGE)
+    set(ARG_PACKAGE ${name})
+  endif()
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
   beckon_compile_options(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_PACKAGE})
 endfunction()
 
 # beckon_test(NAME SOURCES... LINK LIBRARIES... LABEL unit|integration|hardware): a GoogleTest program
@@ -59,12 +63,13 @@ function(beckon_fuzzer name function header)
   add_dependencies(fuzzers ${name})
 endfunction()
 
-# beckon_share(FILES...): data that programs find through SharedFile(); in the build tree and installed
+# beckon_share(FILES... [FOLDER NAME]): data that programs find through SharedFile(); in the build tree and installed
 function(beckon_share)
-  foreach(file ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER" "" ${ARGN})
+  foreach(file ${ARG_UNPARSED_ARGUMENTS})
     get_filename_component(name ${file} NAME)
-    configure_file(${file} ${PROJECT_BINARY_DIR}/share/beckon/${name} COPYONLY)
-    install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/beckon)
+    configure_file(${file} ${PROJECT_BINARY_DIR}/share/beckon/${ARG_FOLDER}/${name} COPYONLY)
+    install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/beckon/${ARG_FOLDER} COMPONENT beckon-base)
   endforeach()
 endfunction()
 

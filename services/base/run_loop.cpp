@@ -13,10 +13,13 @@
 #include <csignal>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "services/base/service_manager.h"
 
 namespace beckon {
 namespace {
@@ -51,6 +54,7 @@ struct RunLoop::State {
   std::atomic<bool> interrupted{false};
   std::mutex mutex;
   std::vector<Callback> posted;
+  std::optional<ServiceManager> manager;  // of the process's own loop
 
   void Watch(int fd) {
     epoll_event event{};
@@ -132,6 +136,9 @@ RunLoop::RunLoop(bool handle_signals) : state_(std::make_unique<State>()) {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     state_->signal_fd = Checked(signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK), "signalfd");
     state_->Watch(state_->signal_fd);
+    state_->manager.emplace(ServiceManager::TakeFromEnvironment());
+    if (const auto period_us = state_->manager->alive_period_us())
+      Every(*period_us, [this] { state_->manager->TellAlive(); });
   }
 }
 
@@ -172,6 +179,7 @@ void RunLoop::Post(Callback work) {
 
 void RunLoop::Run() {
   std::array<epoll_event, 16> events;
+  if (state_->manager) state_->manager->TellReady();
   while (!state_->stopping) {
     const int n = epoll_wait(state_->epoll_fd, events.data(), events.size(), state_->Timeout());
     if (n < 0 && errno != EINTR)
@@ -180,6 +188,7 @@ void RunLoop::Run() {
     state_->RunTimers();
   }
   state_->stopping = false;
+  if (state_->manager) state_->manager->TellStopping();
 }
 
 void RunLoop::Stop() {

@@ -9,9 +9,9 @@
 namespace beckon {
 
 /// epoll with timers. All callbacks run in the thread that calls Run; only Post and Stop may be
-/// called from others. SIGINT and SIGTERM stop the loop in the process that constructed it with
-/// `handle_signals` (construct it before starting threads: the signals are blocked for all of
-/// them).
+/// called from others. With `handle_signals` it is the whole process's: SIGINT and SIGTERM stop it,
+/// and systemd is told that it runs, turns, stops. Construct that one before starting threads: the
+/// signals are blocked for all of them.
 class RunLoop {
  public:
   using Callback = std::function<void()>;

@@ -48,6 +48,36 @@ TEST(Doctor, FailsNoMachineForAFrontEndThatItsUserDoesNotNeed) {
   EXPECT_FALSE(IsInPath("no-such-program"));
 }
 
+TEST(Doctor, WarnsOfADatabaseOnANetworkShare) {
+  std::string asked;
+  const auto on = [&asked](uint32_t type) {
+    return [&asked, type](const std::string& folder) -> Result<uint32_t> {
+      asked = folder;
+      return type;
+    };
+  };
+  constexpr uint32_t kNfs = 0x6969, kCifs = 0xFF534D42, kSmb2 = 0xFE534D42, kNineP = 0x01021997,
+                     kFuse = 0x65735546, kExt4 = 0xEF53, kTmpfs = 0x01021994;
+  for (const uint32_t share : {kNfs, kCifs, kSmb2, kNineP, kFuse}) {
+    const auto finding = CheckDatabaseDisk("/tmp/habits.db", on(share));
+    EXPECT_EQ(finding.grade, Grade::kWarn) << std::hex << share;
+    EXPECT_THAT(finding.remedy, HasSubstr("own disk"));
+  }
+  for (const uint32_t disk : {kExt4, kTmpfs})
+    EXPECT_EQ(CheckDatabaseDisk("/tmp/habits.db", on(disk)).grade, Grade::kOk) << std::hex << disk;
+  // Of a folder that is not made yet, the one it will be made in counts.
+  EXPECT_EQ(CheckDatabaseDisk("/proc/no/such/folder/habits.db", on(kNfs)).grade, Grade::kWarn);
+  EXPECT_EQ(asked, "/proc");
+}
+
+TEST(Doctor, AsksTheSystemForTheKindOfAFolder) {
+  constexpr uint32_t kProc = 0x9FA0;
+  const auto proc = FileSystemOf("/proc");
+  ASSERT_TRUE(proc) << proc.error().message;
+  EXPECT_EQ(*proc, kProc);
+  EXPECT_FALSE(FileSystemOf("/nowhere"));
+}
+
 TEST(Doctor, FailsOnlyWhereSomethingFailed) {
   std::vector<Finding> findings{{Grade::kOk, "a", "fine", ""},
                                 {Grade::kWarn, "b", "so so", "do this"}};

@@ -31,7 +31,11 @@ TEST(Profile, TheOneThatShipsRunsAllFiveServices) {
               UnorderedElementsAre("capture", "perception", "pose", "intention", "ui_bridge"));
 }
 
-TEST(Profile, IsFoundByItsNameAlone) { EXPECT_TRUE(LoadProfile("one-machine")); }
+TEST(Profile, IsFoundByItsNameAlone) {
+  EXPECT_TRUE(LoadProfile("one-machine"));
+  EXPECT_TRUE(LoadProfile("two-machines/camera"));
+  EXPECT_FALSE(LoadProfile("two-machines")) << "a folder of profiles is none";
+}
 
 TEST(Profile, ReadsProgramsAndArguments) {
   const auto profile =

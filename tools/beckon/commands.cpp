@@ -82,7 +82,9 @@ void AddOthers(CLI::App& app, Options& o) {
       ->add_option("--db", o.db, "Look at this history too")
       ->type_name("FILE");
   app.add_subcommand("run", "Keeps a profile's processes running until Ctrl-C")
-      ->add_option("PROFILE", o.profile, "TOML file, or a profile that ships: one-machine")
+      ->add_option("PROFILE", o.profile,
+                   "TOML file, or a profile that ships: one-machine, two-machines/{camera,room}, "
+                   "three-machines/{camera,compute,room}")
       ->required();
   app.add_subcommand("record",
                      "Writes all messages to a log (lcm-logger), and LOG.index.json: what is in it")

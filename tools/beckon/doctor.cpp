@@ -274,6 +274,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
   findings.push_back(CheckAffordances());
   findings.push_back(CheckCategories(options.bin_dir));
   findings.push_back(CheckDatabase(options));
+  findings.push_back(CheckDatabaseDisk(options.db));
   return findings;
 }
 

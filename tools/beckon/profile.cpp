@@ -33,8 +33,8 @@ std::string FindProgram(const std::string& program) {
 }
 
 std::string FindProfile(const std::string& path) {
-  if (fs::exists(path) || path.find('/') != std::string::npos) return path;
-  const std::string shipped = SharedFile(path + ".toml");
+  if (fs::is_regular_file(path)) return path;
+  const std::string shipped = SharedFile("profiles/" + path + ".toml");
   return fs::exists(shipped) ? shipped : path;
 }
 

@@ -22,7 +22,8 @@ struct Profile {
 ///   program = "beckon-pose"    # a path, or a name: beside this program, else in $PATH
 ///   args = ["--verbose"]       # optional
 ///   terminal = false           # optional: has the terminal, at most one
-/// where `path` is a file, or the name of a profile that ships with Beckon ("one-machine").
+/// where `path` is a file, or the name of a profile that ships with Beckon ("one-machine",
+/// "two-machines/room").
 Result<Profile> LoadProfile(const std::string& path);
 
 /// Runs it until Ctrl-C or SIGTERM; 0 then. `lcm_url` is for profiles that name none.
