@@ -12,12 +12,6 @@
 namespace beckon {
 namespace {
 
-std::string HostName() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
 int64_t ResidentKilobytes() {
   std::ifstream statm("/proc/self/statm");
   int64_t total_pages = 0, resident_pages = 0;
@@ -26,6 +20,12 @@ int64_t ResidentKilobytes() {
 }
 
 }  // namespace
+
+std::string HostName() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name[0] == '\0' ? "unnamed" : name.data();
+}
 
 StatusReporter::StatusReporter(std::string service, Bus& bus, RunLoop& loop,
                                std::function<void(msg::Status&)> fill)

@@ -10,6 +10,9 @@
 
 namespace beckon {
 
+/// This machine's name; "unnamed" where it has none.
+std::string HostName();
+
 /// While it lives, publishes what `fill` adds (state line, counters) to name, host, pid, build,
 /// messages received and refused, resident memory.
 class StatusReporter {
