@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/intention/core/led_conversation.h"
@@ -20,9 +22,9 @@ namespace beckon::intention {
 class SlowMemory : public FakeMemory {
  public:
   std::function<void()> on_commit;
-  Result<bool> Commit(const SessionRecord& session, const std::vector<LabelRecord>& labels,
+  Result<bool> Commit(const SessionRecord& session, const std::vector<LabelRecord>& given,
                       const msg::Task& task) override {
-    auto committed = FakeMemory::Commit(session, labels, task);
+    auto committed = FakeMemory::Commit(session, given, task);
     if (on_commit) std::exchange(on_commit, {})();
     return committed;
   }
@@ -70,7 +72,7 @@ class Household {
       auto& machine = machines_.emplace_back(std::make_unique<Machine>());
       machine->net = &net;
       machine->offset = static_cast<Utime>(1 + i) * 1000 * kSecond;
-      machine->wall_offset = (i % 2 == 0 ? 1 : -1) * 3600 * kSecond;
+      machine->wall_offset = (i % 2 == 0 ? 10'003'600 : 9'996'400) * kSecond;  // hours apart
       Begin(i);
     }
     for (size_t i = 0; i < front_ends; ++i)
@@ -88,7 +90,8 @@ class Household {
         LeaseHolder{"machine" + std::to_string(i), std::to_string(++runs_)}, m, affordances_,
         *policy_, m.memory);
     m.tick_at = m.scene_at = m.status_at = 0;
-    for (const msg::Task& task : *m.memory.OpenTasks()) recovered.insert({i, task.task_id});
+    const auto open = m.memory.OpenTasks();
+    for (const msg::Task& task : *open) recovered.insert({i, task.task_id});
     Take(i, m.service->Recover(m.Wall()), false);
   }
   void Kill(size_t i) { net.Kill(i); }
@@ -242,6 +245,11 @@ class Household {
   }
 
   void Take(size_t i, const Actions& actions, bool held) {
+    // Won, used and given back at one go.
+    held = held || std::ranges::any_of(actions, [](const Outgoing& action) {
+             const auto* lease = std::get_if<msg::Lease>(&action);
+             return lease != nullptr && lease->remaining_ms == 0;
+           });
     for (const Outgoing& action : actions) {
       said.push_back({i, net.now(), action, held});
       std::visit([&](const auto& message) { Publish(i, message); }, action);

@@ -91,6 +91,8 @@ Actions LedConversation::OnTask(const msg::Task& task, Utime now) {
 
 Actions LedConversation::OnLease(const msg::Lease& lease, Utime now) {
   leases_.Tick(steady_.Now());
+  if (lease.remaining_ms > 0 && lease.seal.sender != sender_)
+    quiet_until_ = steady_.Now() + kQuiet;
   if (!leases_.OnLease(lease, steady_.Now())) {
     actions_.push_back(Refused{"BECKON_LEASE", "a term of " + std::to_string(lease.term) +
                                                    " for '" + lease.user +
