@@ -121,7 +121,8 @@ struct Service::State {
   void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Profile& profile) { Send(profile, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Lease& lease) { Send(lease, clock.Now() + kMessageLifetime); }
+  /// Without expiry: other machines' clocks may be hours off.
+  void PublishOne(const msg::Lease& lease) { Send(lease, 0); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) {
     bus.Refuse(refused.channel, refused.reason, refused.detail);
