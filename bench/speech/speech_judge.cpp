@@ -59,10 +59,25 @@ nlohmann::json ToJson(const Tally& t) {
           {"others", t.others},   {"false_stops", t.false_stops}};
 }
 
+/// Of the dictionary, to learn what is no command from.
+Result<std::vector<std::string>> CommonWords() {
+  const std::string folder = speech::kModelFolder;
+  const auto lexicon = speech::LoadLexicon(folder);
+  if (!lexicon) return lexicon.error();
+  const auto frequent = speech::FrequentWords(folder, *lexicon);
+  if (!frequent) return frequent.error();
+  std::vector<std::string> words;
+  for (size_t i = 0; i < std::min<size_t>(6'000, frequent->size()); ++i)
+    words.push_back((*frequent)[i].word);
+  return words;
+}
+
 Status Learn(const Options& options, speech::Recogniser& recogniser,
              const std::vector<double>& babble) {
+  const auto words = CommonWords();
+  if (!words) return words.error();
   const Corpus corpus = MakeCorpus(Part::kLearn, static_cast<size_t>(options.inside),
-                                   static_cast<size_t>(options.outside), options.seed);
+                                   static_cast<size_t>(options.outside), options.seed, *words);
   Trials trials(recogniser, corpus, babble);
   std::vector<Example> examples;
   for (const Condition& condition :
