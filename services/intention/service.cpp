@@ -12,8 +12,10 @@
 #include "services/intention/affordances_file.h"
 #include "services/intention/core/conversation.h"
 #include "services/intention/core/policies.h"
+#include "services/intention/history_service.h"
 #include "services/intention/phrases_file.h"
 #include "services/intention/store.h"
+#include "services/intention/store_recovery.h"
 
 namespace beckon::intention {
 namespace {
@@ -21,6 +23,8 @@ namespace {
 constexpr Utime kTickPeriod = kSecond / 10;
 /// A query, announcement or status that is older than this is refused by its receivers.
 constexpr Utime kMessageLifetime = 10 * kSecond;
+/// Of what is wrong, in the status.
+constexpr size_t kMostNotice = 700;
 /// Where interfaces make errors: that the user wants something we do not know of.
 constexpr double kNonePrior = 0.002;
 
@@ -57,6 +61,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
   table.Get("affordances", config.affordances);
   table.Get("phrases", config.phrases);
   table.Get("machine", config.machine);
+  table.Get("share_history", config.share_history);
   table.Get("task_lifetime_s", config.task_lifetime_s, 1, 3600);
   table.Get("scene_max_age_s", config.scene_max_age_s, 0.1, 3600);
   if (Status read = table.Finish(); !read) return read.error();
@@ -71,14 +76,16 @@ void FillDefaults(ServiceConfig& config) {
 }
 
 struct Service::State {
-  State(const ServiceConfig& config, Affordances known, Phrases phrases,
-        std::unique_ptr<Store> opened, Bus& the_bus, RunLoop& the_loop, const Clock& the_clock)
+  State(const ServiceConfig& config, Affordances known, Phrases phrases, OpenedStore opened,
+        Bus& the_bus, RunLoop& the_loop, const Clock& the_clock)
       : affordances(std::move(known)),
         policy(PolicyOf(config, affordances)),
-        store(std::move(opened)),
+        notice(std::move(opened.notice)),
+        store(std::move(opened.store)),
         conversation(affordances, *policy, *store,
                      ConversationConfigOf(config, std::move(phrases))),
         sender(config.machine + "/intention"),
+        share_history(config.share_history),
         bus(the_bus),
         loop(the_loop),
         clock(the_clock) {}
@@ -109,6 +116,12 @@ struct Service::State {
     status = std::make_unique<StatusReporter>("intention", bus, loop,
                                               [this](msg::Status& s) { Fill(s); });
     Publish(conversation.Recover(clock.Now()));
+    if (share_history) {
+      history =
+          std::make_unique<HistoryService>(*store, bus, loop, clock, [this](msg::History message) {
+            Send(std::move(message), clock.Now() + kMessageLifetime);
+          });
+    }
   }
 
   msg::Seal Seal(Utime expires) {
@@ -164,16 +177,26 @@ struct Service::State {
                                         {"question_us_max", question_us_max}}) {
       s.counters.push_back({name, value});
     }
+    std::string notices = notice;
+    if (history) {
+      history->Fill(s);
+      if (const std::string more = history->Notice(); !more.empty())
+        notices += (notices.empty() ? "" : "; ") + more;
+    }
+    if (!notices.empty()) s.state += " (" + notices.substr(0, kMostNotice) + ")";
   }
 
   const Affordances affordances;
   const std::unique_ptr<Policy> policy;
+  const std::string notice;  // of how the database was found
   const std::unique_ptr<Store> store;
   Conversation conversation;
   const std::string sender;
+  const bool share_history;
   Bus& bus;
   RunLoop& loop;
   const Clock& clock;
+  std::unique_ptr<HistoryService> history;
   std::unique_ptr<StatusReporter> status;
   RunLoop::TimerId tick = 0;
   int64_t counter = 0;
@@ -190,8 +213,9 @@ Result<std::unique_ptr<Service>> Service::Start(const ServiceConfig& config, Bus
   if (!affordances) return affordances.error();
   auto phrases = config.phrases.empty() ? English() : ReadPhrases(config.phrases);
   if (!phrases) return phrases.error();
-  auto store = Store::Open(config.db, config.machine);
+  auto store = OpenOrReplace(config.db, config.machine, clock.Now());
   if (!store) return store.error();
+  if (!store->notice.empty()) spdlog::error("{}", store->notice);
   auto state = std::make_unique<State>(config, *std::move(affordances), *std::move(phrases),
                                        *std::move(store), bus, loop, clock);
   state->Subscribe();

@@ -9,7 +9,7 @@ namespace beckon::intention {
 namespace {
 
 /// Each entry leads from version i to i + 1. Never edit an entry that was released: add one.
-constexpr std::array<const char*, kSchemaVersion> kSteps = {
+const std::array<const char*, kSchemaVersion> kSteps = {
     // 1: the append-only history, as it is shared between machines; and this machine's tasks.
     R"sql(
       CREATE TABLE rows (
@@ -120,7 +120,8 @@ constexpr std::array<const char*, kSchemaVersion> kSteps = {
         BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
       CREATE TRIGGER stops_are_never_deleted BEFORE DELETE ON stops
         BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
-    )sql"};
+    )sql",
+    kSchemaStep4};
 
 int PragmaValue(SQLite::Database& database, const char* pragma) {
   return database.execAndGet(std::string("PRAGMA ") + pragma).getInt();
@@ -171,6 +172,7 @@ Status CheckVersion(SQLite::Database& database, const std::string& path) {
 
 Status Migrate(SQLite::Database& database, const std::string& path) {
   if (Status known = CheckVersion(database, path); !known) return known;
+  AddFunctions(database);
   for (;;) {
     // In the transaction: another process may be doing the same.
     SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
