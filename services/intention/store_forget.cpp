@@ -150,12 +150,12 @@ void Store::Echo(const HistoryRow& forget, const RowHead& head, Utime now) {
 void Store::Scrub() {
   if (!erased_) return;
   erased_ = false;
-  // Fails where another process reads just now; the next one does it then.
+  // Does nothing where another process reads just now; closing the database does it then.
   database_->tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
 Result<int> Store::ForgetUser(const std::string& user, Utime now) {
-  return Try<int>([&]() -> Result<int> {
+  auto forgotten = Try<int>([&]() -> Result<int> {
     SQLite::Transaction transaction(*database_, kImmediate);
     SQLite::Statement sessions(*database_, "SELECT COUNT(*) FROM sessions WHERE user = ?");
     sessions.bind(1, user);
@@ -176,14 +176,15 @@ Result<int> Store::ForgetUser(const std::string& user, Utime now) {
     Insert(kForget, {uid, user, now}, body.dump(), now);
     Obey(body.dump(), user);
     transaction.commit();
-    Scrub();
     Advance(origin_);
     return count;
   });
+  Scrub();
+  return forgotten;
 }
 
 Result<SessionRecord> Store::ForgetLast(const std::string& user, Utime now) {
-  return Try<SessionRecord>([&]() -> Result<SessionRecord> {
+  auto forgotten = Try<SessionRecord>([&]() -> Result<SessionRecord> {
     SQLite::Transaction transaction(*database_, kImmediate);
     std::string last;
     {
@@ -201,10 +202,11 @@ Result<SessionRecord> Store::ForgetLast(const std::string& user, Utime now) {
     Insert(kForget, {uid, session->user, now}, body.dump(), now);
     Obey(body.dump(), session->user);
     transaction.commit();
-    Scrub();
     Advance(origin_);
     return *session;
   });
+  Scrub();
+  return forgotten;
 }
 
 }  // namespace beckon::intention

@@ -170,19 +170,26 @@ Status CheckVersion(SQLite::Database& database, const std::string& path) {
   return {};
 }
 
+/// One step, in a transaction: another process may be doing the same. False: there is none left.
+static bool MigrateOnce(SQLite::Database& database) {
+  SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
+  const int version = PragmaValue(database, "user_version");
+  if (version >= kSchemaVersion) return false;
+  database.exec(kSteps[static_cast<size_t>(version)]);
+  database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+  database.exec("PRAGMA user_version = " + std::to_string(version + 1));
+  step.commit();
+  return true;
+}
+
 Status Migrate(SQLite::Database& database, const std::string& path) {
   if (Status known = CheckVersion(database, path); !known) return known;
   AddFunctions(database);
-  for (;;) {
-    // In the transaction: another process may be doing the same.
-    SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
-    const int version = PragmaValue(database, "user_version");
-    if (version >= kSchemaVersion) return {};
-    database.exec(kSteps[static_cast<size_t>(version)]);
-    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
-    database.exec("PRAGMA user_version = " + std::to_string(version + 1));
-    step.commit();
-  }
+  bool changed = false;
+  while (MigrateOnce(database)) changed = true;
+  // What a step erased does not stay in the log.
+  if (changed) database.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+  return {};
 }
 
 }  // namespace beckon::intention

@@ -140,7 +140,7 @@ std::string Store::TakeOne(const HistoryRow& row, Utime now) {
 }
 
 Result<TakenRows> Store::Take(const std::vector<HistoryRow>& rows, Utime now) {
-  return Try<TakenRows>([&]() -> Result<TakenRows> {
+  auto result = Try<TakenRows>([&]() -> Result<TakenRows> {
     TakenRows taken;
     SQLite::Transaction transaction(*database_, kImmediate);
     std::map<std::string, int64_t> next;  // of each origin
@@ -158,11 +158,12 @@ Result<TakenRows> Store::Take(const std::vector<HistoryRow>& rows, Utime now) {
       if (row.hybrid_utime > now + kMostAhead) ++taken.far_future;
     }
     transaction.commit();
-    Scrub();
     for (const auto& [origin, seq] : next) Advance(origin);
     Advance(origin_);  // echoes
     return taken;
   });
+  Scrub();
+  return result;
 }
 
 /// An unchanged copy under the next number of this machine, unless another origin has the row.
@@ -222,7 +223,7 @@ Status Store::Yield(const std::string& origin, int64_t seq, Utime) {
 }
 
 Result<int> Store::AddRows(const std::vector<HistoryRow>& rows, Utime now) {
-  return Try<int>([&]() -> Result<int> {
+  auto result = Try<int>([&]() -> Result<int> {
     SQLite::Transaction transaction(*database_, kImmediate);
     int added = 0;
     for (const HistoryRow& given : rows) {
@@ -247,10 +248,11 @@ Result<int> Store::AddRows(const std::vector<HistoryRow>& rows, Utime now) {
       ++added;
     }
     transaction.commit();
-    Scrub();
     heads_known_ = false;
     return added;
   });
+  Scrub();
+  return result;
 }
 
 }  // namespace beckon::intention

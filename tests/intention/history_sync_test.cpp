@@ -147,6 +147,20 @@ TEST(HistorySync, ALongHistoryComesInBurstsOnRequest) {
   EXPECT_LT(all.network.machines[0].largest, msg::kMaxDatagram);
 }
 
+TEST(HistorySync, RowsOfAnySizeFitTheirMessages) {
+  Machines all(2, 6);
+  std::mt19937_64 random(6);
+  std::set<std::string> written;
+  for (int i = 0; i < 400; ++i) {
+    const std::string body(i % 50 == 0 ? 48 * 1024 : 100 + random() % 2000, 'a');
+    all.histories[0].Write(std::to_string(i) + body, 1000);
+    written.insert(std::to_string(i) + body);
+  }
+  all.network.RunUntilEqual(20 * kSecond);
+  EXPECT_EQ(all.histories[1].Bodies(), written);
+  EXPECT_LT(all.network.machines[0].largest, msg::kMaxDatagram);
+}
+
 TEST(HistorySync, ABadRowIsRefusedAloneAndAskedForAgain) {
   Machines all(2, 9);
   all.network.machines[1].island = 1;

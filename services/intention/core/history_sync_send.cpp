@@ -97,7 +97,7 @@ void HistorySync::SendAnswers(std::vector<msg::History>& out, const Instant& now
       }
       size_t taken = 0, bytes = kDigestBytes + origin.size();
       while (taken < rows->size() &&
-             (bytes + Bytes((*rows)[taken]) <= room || message.rows.empty()))
+             (bytes + Bytes((*rows)[taken]) <= room || (taken == 0 && message.rows.empty())))
         bytes += Bytes((*rows)[taken++]);
       room -= std::min(room, bytes);
       if (taken == 0) {
