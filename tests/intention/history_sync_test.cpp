@@ -229,6 +229,46 @@ TEST(HistorySync, RowsWithoutTheirFoundationAreRefused) {
   EXPECT_EQ(history.Bodies().size(), 1u);
 }
 
+// Well formed nonsense of a peer changes nothing that this machine wrote, and is answered within
+// bounds.
+TEST(HistorySync, NonsenseDoesNoHarm) {
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto draw = [&](uint64_t n) { return random() % n; };
+    ListHistory history("a");
+    for (int i = 0; i < 20; ++i) history.Write("row " + std::to_string(i), 1000 + i);
+    const std::set<std::string> written = history.Bodies();
+    HistorySync sync(history, {.run = "mine", .seed = seed});
+    const auto seq = [&]() -> int64_t {
+      return draw(4) == 0 ? INT64_MAX - static_cast<int64_t>(draw(3))
+                          : static_cast<int64_t>(1 + draw(25));
+    };
+    const auto origin = [&] { return draw(2) == 0 ? "a" : "x" + std::to_string(draw(5)); };
+    for (Utime now = 0; now < 3 * kSecond; now += kSecond / 100) {
+      msg::History message;
+      message.utime = 1;
+      message.machine = origin();
+      message.run = "other";
+      message.complete = draw(2) == 0;
+      for (uint64_t n = draw(4); n > 0; --n) {
+        const int64_t at = seq();
+        const auto mine = history.ChainAt("a", at);
+        message.digests.push_back(
+            {origin(), at, static_cast<int64_t>(mine && draw(2) == 0 ? *mine : random())});
+      }
+      for (uint64_t n = draw(3); n > 0; --n)
+        message.rows.push_back({origin(), seq(), static_cast<Utime>(1 + draw(9)), "note", "?"});
+      for (const auto& sent : sync.OnMessage(message, {now, now})) {
+        EXPECT_LT(BytesOf(sent), msg::kMaxDatagram);
+        EXPECT_LE(sent.digests.size(), 256u);
+      }
+      EXPECT_GE(sync.BehindBy(), 0);
+    }
+    const auto bodies = history.Bodies();
+    EXPECT_TRUE(std::includes(bodies.begin(), bodies.end(), written.begin(), written.end()));
+  }
+}
+
 // Copies of one machine go on under its name; old backups come back; all of it while peers know
 // one branch or the other.
 TEST(HistorySync, ForkedHistoriesMeetWithoutLoss) {

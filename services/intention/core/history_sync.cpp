@@ -22,6 +22,8 @@ constexpr Utime kFirstAnswer = 30 * kMillisecond;
 constexpr Utime kLastAnswer = 180 * kMillisecond;
 constexpr Utime kProbePeriod = 50 * kMillisecond;
 constexpr int64_t kProbePoints = 16;
+/// Of one origin: whatever somebody claims, the sum is a number.
+constexpr int64_t kMostBehind = 1'000'000'000;
 
 uint64_t ToChain(int64_t checksum) { return static_cast<uint64_t>(checksum); }
 
@@ -72,7 +74,7 @@ void HistorySync::TakeRows(const msg::History& message,
   for (size_t i = 0, end = 0; i < message.rows.size(); i = end) {
     const std::string& origin = message.rows[i].origin;
     for (end = i + 1; end < message.rows.size() && message.rows[end].origin == origin &&
-                      message.rows[end].seq == message.rows[end - 1].seq + 1;)
+                      message.rows[end].seq - 1 == message.rows[end - 1].seq;)
       ++end;
     const int64_t before = message.rows[i].seq - 1, last = message.rows[end - 1].seq;
     const auto claims = entries.find(origin);
@@ -226,7 +228,8 @@ int64_t HistorySync::BehindBy() const {
   for (const auto& [origin, want] : wants_) {
     const auto& heads = source_.Heads();
     const auto head = heads.find(origin);
-    rows += std::max<int64_t>(0, want.seq - (head == heads.end() ? 0 : head->second.seq));
+    const int64_t here = head == heads.end() ? 0 : head->second.seq;
+    rows += std::clamp<int64_t>(want.seq - here, 0, kMostBehind);
   }
   return rows;
 }

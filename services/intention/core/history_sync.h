@@ -78,6 +78,11 @@ class HistorySync {
     int64_t width = 0;
     Utime at = 0;
   };
+  /// Messages with rows, in the making.
+  struct Burst {
+    std::vector<msg::History> messages;
+    size_t room = 0;  // bytes, in the last one
+  };
   using Entries = std::map<int64_t, uint64_t>;  // checksum by seq, of one origin
 
   void TakeRows(const msg::History& message, const std::map<std::string, Entries>& entries,
@@ -95,6 +100,7 @@ class HistorySync {
   std::vector<msg::History> Flush(const Instant& now);
   void PushOwn(Utime now);
   void SendAnswers(std::vector<msg::History>& out, const Instant& now);
+  int64_t AddRows(Burst& burst, const std::string& origin, int64_t after, const Instant& now);
   void SendRequest(std::vector<msg::History>& out, const Instant& now);
   void SendDigest(std::vector<msg::History>& out, const Instant& now);
   msg::History Message(const Instant& now);

@@ -67,53 +67,62 @@ void HistorySync::PushOwn(Utime now) {
 /// The rows that are due, in messages of which the last says how much more there is: on hearing
 /// that, whoever still lacks rows asks for the next burst.
 void HistorySync::SendAnswers(std::vector<msg::History>& out, const Instant& now) {
-  std::vector<msg::History> burst;
+  Burst burst;
   std::vector<std::string> origins;
-  size_t room = 0;
   for (auto next = answers_.begin(); next != answers_.end();) {
     if (origins.size() == kMostOrigins) break;  // the others with the next tick
     if (next->second.due > now.steady) {
       ++next;
       continue;
     }
-    const std::string origin = next->first;
-    int64_t after = next->second.after;
-    next = answers_.erase(next);
-    origins.push_back(origin);
-    while (after < HeadOf(origin).seq) {
-      const bool full = burst.empty() || burst.back().rows.size() >= kMostRows || room < 2'000;
-      if (full) {
-        if (static_cast<int>(burst.size()) == config_.burst_messages) break;
-        burst.push_back(Message(now));
-        room = config_.message_bytes - kMessageBytes;
-      }
-      msg::History& message = burst.back();
-      const auto rows =
-          source_.RowsAfter(origin, after, kMostRows - message.rows.size(),
-                            room - std::min(room, kDigestBytes + 2 * origin.size() + kRowBytes));
-      if (!rows) {
-        Note(rows.error());
-        break;
-      }
-      size_t taken = 0, bytes = kDigestBytes + origin.size();
-      while (taken < rows->size() &&
-             (bytes + Bytes((*rows)[taken]) <= room || (taken == 0 && message.rows.empty())))
-        bytes += Bytes((*rows)[taken++]);
-      room -= std::min(room, bytes);
-      if (taken == 0) {
-        room = 0;
-        continue;
-      }
-      AddEntry(message, origin, after);
-      for (size_t i = 0; i < taken; ++i) message.rows.push_back(ToMessage((*rows)[i]));
-      counters_.rows_sent += static_cast<int64_t>(taken);
-      after += static_cast<int64_t>(taken);
-      streams_[origin] = {after, now.steady, true};
+    origins.push_back(next->first);
+    for (int64_t after = next->second.after; after < HeadOf(next->first).seq;) {
+      const int64_t added = AddRows(burst, next->first, after, now);
+      if (added == 0) break;
+      after += added;
     }
+    next = answers_.erase(next);
   }
-  if (burst.empty()) return;
-  for (const std::string& origin : origins) AddEntry(burst.back(), origin, HeadOf(origin).seq);
-  std::move(burst.begin(), burst.end(), std::back_inserter(out));
+  if (burst.messages.empty()) return;
+  for (const std::string& origin : origins)
+    AddEntry(burst.messages.back(), origin, HeadOf(origin).seq);
+  std::move(burst.messages.begin(), burst.messages.end(), std::back_inserter(out));
+}
+
+/// Into the last message of the burst, or another where that is full; how many. None: the burst
+/// has all it may have, or the rows cannot be read.
+int64_t HistorySync::AddRows(Burst& burst, const std::string& origin, int64_t after,
+                             const Instant& now) {
+  const auto place = [&] { return burst.messages.empty() ? 0 : burst.messages.back().rows.size(); };
+  const size_t entry = kDigestBytes + origin.size();
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (burst.messages.empty() || attempt == 1 || place() >= kMostRows) {
+      if (static_cast<int>(burst.messages.size()) == config_.burst_messages) return 0;
+      burst.messages.push_back(Message(now));
+      burst.room = config_.message_bytes - kMessageBytes;
+    }
+    const auto rows = source_.RowsAfter(origin, after, kMostRows - place(), burst.room);
+    if (!rows) {
+      Note(rows.error());
+      return 0;
+    }
+    size_t taken = 0, bytes = entry;
+    while (taken < rows->size()) {
+      const size_t more = bytes + Bytes((*rows)[taken]);
+      if (more > burst.room && (taken > 0 || place() > 0)) break;
+      bytes = more;
+      ++taken;
+    }
+    if (taken == 0) continue;  // in the next message
+    burst.room -= std::min(burst.room, bytes);
+    msg::History& message = burst.messages.back();
+    AddEntry(message, origin, after);
+    for (size_t i = 0; i < taken; ++i) message.rows.push_back(ToMessage((*rows)[i]));
+    counters_.rows_sent += static_cast<int64_t>(taken);
+    streams_[origin] = {after + static_cast<int64_t>(taken), now.steady, true};
+    return static_cast<int64_t>(taken);
+  }
+  return 0;
 }
 
 /// A digest of the origins of which rows are wanted.
