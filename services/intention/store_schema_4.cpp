@@ -33,11 +33,11 @@ void AddFunctions(SQLite::Database& database) {
 // was forgotten is erased, so that the views need not look it up; under which name this machine
 // writes. Nothing is ever changed but by erasing, and by moving a row to another number.
 const char* const kSchemaStep4 = R"sql(
-  DROP VIEW error_counts;
-  DROP VIEW answers;
-  DROP VIEW counts;
-  DROP VIEW labels;
-  DROP VIEW sessions;
+  DROP VIEW IF EXISTS error_counts;
+  DROP VIEW IF EXISTS answers;
+  DROP VIEW IF EXISTS counts;
+  DROP VIEW IF EXISTS labels;
+  DROP VIEW IF EXISTS sessions;
   CREATE TABLE rows_4 (
     origin TEXT NOT NULL CHECK (origin <> ''),
     seq INTEGER NOT NULL CHECK (seq >= 1),
@@ -61,7 +61,7 @@ const char* const kSchemaStep4 = R"sql(
         OR (r.kind = 'label' AND json_extract(r.body, '$.session_id') = f.session_id))
       OR EXISTS (SELECT 1 FROM forgets f, json_each(f.covers) c
         WHERE f.user = r.user AND c.key = r.origin AND c.value >= r.seq));
-  DROP VIEW forgets;
+  DROP VIEW IF EXISTS forgets;
   DROP TABLE rows;
   ALTER TABLE rows_4 RENAME TO rows;
   CREATE INDEX rows_by_user ON rows (kind, user, hybrid_utime);
@@ -81,7 +81,7 @@ const char* const kSchemaStep4 = R"sql(
     WHEN NOT EXISTS (SELECT 1 FROM rows r WHERE r.uid = OLD.uid AND r.origin <> OLD.origin
       AND (r.kind = OLD.kind OR r.kind = 'erased'))
     BEGIN SELECT RAISE(ABORT, 'the history is append-only'); END;
-  DROP TRIGGER tasks_are_never_changed;
+  DROP TRIGGER IF EXISTS tasks_are_never_changed;
   CREATE TRIGGER tasks_are_only_erased BEFORE UPDATE ON tasks
     WHEN NOT (NEW.task_id = OLD.task_id AND NEW.encoded = x'' AND OLD.encoded <> x'')
     BEGIN SELECT RAISE(ABORT, 'tasks are append-only'); END;
