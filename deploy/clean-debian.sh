@@ -45,10 +45,12 @@ make_debian() {
 forget_debian() { [ "$temporary" = no ] || rm -rf --one-file-system "$root"; }
 
 # inside COMMAND: in the Debian, with nothing of this machine's environment
-inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
+inside() {
+  env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"
+}
 
 # install WHAT: packages, or files as the Debian's shell finds them; says nothing unless it fails
 install() {
-  inside sh -c "apt-get -qq update && apt-get -qq -o Dpkg::Use-Pty=0 install -y --no-install-recommends $* >/tmp/log 2>&1 ||
-    { cat /tmp/log >&2; exit 1; }"
+  inside sh -c "apt-get -qq update
+    apt-get -qq -o Dpkg::Use-Pty=0 install -y --no-install-recommends $* >/tmp/log 2>&1 || { cat /tmp/log >&2; exit 1; }"
 }

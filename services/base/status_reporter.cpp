@@ -9,15 +9,12 @@
 #include "services/base/app.h"
 
 namespace beckon {
-namespace {
 
 std::string HostName() {
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
-  return name.data();
+  return name[0] == '\0' ? "unnamed" : name.data();
 }
-
-}  // namespace
 
 StatusReporter::StatusReporter(std::string service, Bus& bus, RunLoop& loop,
                                std::function<void(msg::Status&)> fill)

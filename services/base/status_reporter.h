@@ -11,6 +11,9 @@
 
 namespace beckon {
 
+/// This machine's name; "unnamed" where it has none.
+std::string HostName();
+
 /// While it lives, publishes what `fill` adds (state line, counters of its own) to what every
 /// process tells: name, host, pid, build, traffic, times and refusals of its bus, CPU and memory.
 class StatusReporter {

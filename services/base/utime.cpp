@@ -1,6 +1,7 @@
 #include "services/base/utime.h"
 
 #include <chrono>
+#include <ctime>
 
 namespace beckon {
 namespace {
@@ -20,6 +21,12 @@ Utime SystemClock::Now() const {
 }
 
 Utime SteadyClock::Now() const { return MonotonicNanoseconds() / 1000; }
+
+Utime BootClock::Now() const {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return Utime{now.tv_sec} * kSecond + now.tv_nsec / 1000;
+}
 
 Stopwatch::Stopwatch() : start_ns_(MonotonicNanoseconds()) {}
 

@@ -30,6 +30,12 @@ class SteadyClock : public Clock {
   Utime Now() const override;
 };
 
+/// The same, and counts on while the machine sleeps: for what must not be believed too long.
+class BootClock : public Clock {
+ public:
+  Utime Now() const override;
+};
+
 /// A clock that stands where it was put.
 class ManualClock : public Clock {
  public:

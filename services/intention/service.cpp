@@ -1,34 +1,26 @@
 #include "services/intention/service.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <optional>
 
 #include "services/base/app.h"
 #include "services/base/status_reporter.h"
 #include "services/intention/affordances_file.h"
-#include "services/intention/core/conversation.h"
 #include "services/intention/core/policies.h"
+#include "services/intention/lead_service.h"
 #include "services/intention/phrases_file.h"
 #include "services/intention/store.h"
 
 namespace beckon::intention {
 namespace {
 
-constexpr Utime kTickPeriod = kSecond / 10;
 /// A query, announcement or status that is older than this is refused by its receivers.
 constexpr Utime kMessageLifetime = 10 * kSecond;
 /// Where interfaces make errors: that the user wants something we do not know of.
 constexpr double kNonePrior = 0.002;
-
-std::string HostName() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name[0] == '\0' ? "unnamed" : name.data();
-}
 
 std::unique_ptr<Policy> PolicyOf(const ServiceConfig& config, const Affordances& affordances) {
   if (config.policy == "oain") return MakeOainPolicy(affordances);
@@ -76,28 +68,25 @@ struct Service::State {
       : affordances(std::move(known)),
         policy(PolicyOf(config, affordances)),
         store(std::move(opened)),
-        conversation(affordances, *policy, *store,
+        conversation(NewHolder(config.machine), steady, affordances, *policy, *store,
                      ConversationConfigOf(config, std::move(phrases))),
-        sender(config.machine + "/intention"),
         bus(the_bus),
         loop(the_loop),
         clock(the_clock) {}
 
-  ~State() { loop.Cancel(tick); }
-
   template <typename Message>
-  void Feed(Actions (Conversation::*handler)(const Message&, Utime)) {
+  void Feed(Actions (LedConversation::*handler)(const Message&, Utime)) {
     bus.Subscribe<Message>([this, handler](Message message) {
       Publish((conversation.*handler)(message, clock.Now()));
     });
   }
 
   void Subscribe() {
-    Feed<msg::Scene>(&Conversation::OnScene);
-    Feed<msg::Poses>(&Conversation::OnPoses);
-    Feed<msg::Interface>(&Conversation::OnInterface);
-    Feed<msg::Session>(&Conversation::OnSession);
-    Feed<msg::TaskStatus>(&Conversation::OnTaskStatus);
+    Feed<msg::Scene>(&LedConversation::OnScene);
+    Feed<msg::Poses>(&LedConversation::OnPoses);
+    Feed<msg::Interface>(&LedConversation::OnInterface);
+    Feed<msg::Session>(&LedConversation::OnSession);
+    Feed<msg::TaskStatus>(&LedConversation::OnTaskStatus);
     bus.Subscribe<msg::Answer>([this](msg::Answer answer) {
       const Stopwatch stopwatch;
       Publish(conversation.OnAnswer(answer, clock.Now()));
@@ -105,7 +94,7 @@ struct Service::State {
       question_us = us;
       question_us_max = std::max(question_us_max, us);
     });
-    tick = loop.Every(kTickPeriod, [this] { Publish(conversation.Tick(clock.Now())); });
+    lead.emplace(conversation, bus, loop, clock, [this](const Actions& a) { Publish(a); });
     status = std::make_unique<StatusReporter>("intention", bus, loop,
                                               [this](msg::Status& s) { Fill(s); });
     Publish(conversation.Recover(clock.Now()));
@@ -115,7 +104,7 @@ struct Service::State {
     // Grows over restarts too.
     counter = std::max(counter + 1, clock.Now());
     msg::Seal seal;
-    seal.sender = sender;
+    seal.sender = conversation.sender();
     seal.counter = counter;
     seal.expires_utime = expires;
     return seal;
@@ -132,6 +121,7 @@ struct Service::State {
   void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Profile& profile) { Send(profile, clock.Now() + kMessageLifetime); }
+  void PublishOne(const msg::Lease& lease) { Send(lease, clock.Now() + kMessageLifetime); }
   void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) {
     bus.Refuse(refused.channel, refused.reason, refused.detail);
@@ -144,8 +134,9 @@ struct Service::State {
   }
 
   void Fill(msg::Status& s) {
-    const ConversationCounters& c = conversation.counters();
-    s.state = conversation.StateText();
+    const ConversationCounters& c = conversation.conversation().counters();
+    s.state = conversation.conversation().StateText();
+    lead->Fill(s);
     const auto rows = store->RowCount();
     for (const auto& [name, value] :
          std::map<std::string, int64_t>{{"sessions", c.sessions},
@@ -171,13 +162,13 @@ struct Service::State {
   const Affordances affordances;
   const std::unique_ptr<Policy> policy;
   const std::unique_ptr<Store> store;
-  Conversation conversation;
-  const std::string sender;
+  const BootClock steady;
+  LedConversation conversation;
   Bus& bus;
   RunLoop& loop;
   const Clock& clock;
+  std::optional<LeadService> lead;
   std::unique_ptr<StatusReporter> status;
-  RunLoop::TimerId tick = 0;
   int64_t counter = 0;
   int64_t question_us = 0;  // from an answer to what follows it, last and longest
   int64_t question_us_max = 0;

@@ -53,6 +53,7 @@ void Dialogue::OnQuery(const msg::Query& query) {
   if (phase_ == Phase::kStopped || Stopping() || cancelled_ || HasEnded(query.session_id)) return;
   if (phase_ != Phase::kRunning || query.session_id != session_id_) Join(query.session_id);
   if (!presented_.insert(query.id).second) return;
+  leader_ = query.seal.sender;
   answer_.reset();
   query_ = query;
   output_.Present(query);
@@ -70,13 +71,14 @@ void Dialogue::OnSession(const msg::Session& event) {
   if (!ours && !everybody) return;
   switch (event.kind) {
     case msg::SessionKind::kIdle:
-      return OnIdle(event);
+      return IsBystander(event) ? void() : OnIdle(event);
     case msg::SessionKind::kConfirmed:
     case msg::SessionKind::kAbandoned:
       return OnEnd(event);
     case msg::SessionKind::kStopped:
       if (Stopping()) control_.reset();
       phase_ = Phase::kStopped;
+      leader_ = event.seal.sender;
       LayDown();
       return ShowOnce(event);
     default:
@@ -87,11 +89,21 @@ void Dialogue::OnSession(const msg::Session& event) {
   if (control_ && control_->message.kind == msg::SessionKind::kRequestResume) control_.reset();
   if (phase_ != Phase::kRunning || event.session_id != session_id_) Join(event.session_id);
   ours_heard_ = heard_;
+  // The one that asked is silent, or yielded: another leads, and asks anew.
+  leader_ = event.seal.sender;
+  if (query_ && query_->seal.sender != leader_) DropQuery();
   if (answer_ && query_ && event.questions > query_->questions_asked) answer_.reset();
   // It waits for something, and asks anew when that is there.
   if (query_ && !event.text.empty() && event.utime > query_->utime) DropQuery();
   HearCount(event.questions);
   ShowOnce(event);
+}
+
+bool Dialogue::IsBystander(const msg::Session& idle) const {
+  if (leader_.empty() || idle.seal.sender == leader_ || !idle.user.empty()) return false;
+  const bool resuming =
+      control_ && control_->message.kind == msg::SessionKind::kRequestResume;
+  return !resuming && !(phase_ == Phase::kRequesting && cancelled_);
 }
 
 void Dialogue::OnIdle(const msg::Session& event) {
@@ -139,6 +151,7 @@ void Dialogue::OnEnd(const msg::Session& event) {
   if (phase_ == Phase::kIdle || (event.session_id != session_id_ && !resumed)) return;
   if (resumed) control_.reset();
   End();
+  leader_ = event.seal.sender;
   ShowOnce(event);
 }
 

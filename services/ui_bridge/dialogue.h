@@ -96,6 +96,8 @@ class Dialogue {
   void End();
   void DropQuery();
   void ShowOnce(const msg::Session& event);
+  /// A service that is not the one we hear of our session from, or of the stop, has nothing to do.
+  bool IsBystander(const msg::Session& idle) const;
   void OnIdle(const msg::Session& event);
   void OnEnd(const msg::Session& event);
   /// Intention speaks, but no longer of the session that runs.
@@ -125,6 +127,7 @@ class Dialogue {
   bool cancelled_ = false;                // the user no longer wants the one that runs
   Utime listen_until_;
   std::string session_id_;
+  std::string leader_;  // seal_t.sender of what was last said to us
   std::optional<msg::Query> query_;
   std::set<int64_t> presented_;  // ids of this session
   std::optional<Repeated<msg::Answer>> answer_;

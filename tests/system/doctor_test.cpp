@@ -11,9 +11,12 @@ using Grade = Finding::Grade;
 using ::testing::HasSubstr;
 
 TEST(Doctor, WarnsOfMessagesThatLeaveTheMachine) {
-  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=0").grade, Grade::kOk);
-  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=1").grade, Grade::kWarn);
-  EXPECT_EQ(CheckUrl("memq://").grade, Grade::kOk);
+  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=0", "").grade, Grade::kOk);
+  const auto unsigned_messages = CheckUrl("udpm://239.255.76.67:7667?ttl=1", "");
+  EXPECT_EQ(unsigned_messages.grade, Grade::kWarn);
+  EXPECT_THAT(unsigned_messages.remedy, HasSubstr("beckon keys make"));
+  EXPECT_EQ(CheckUrl("udpm://239.255.76.67:7667?ttl=1", "/etc/beckon/keys").grade, Grade::kOk);
+  EXPECT_EQ(CheckUrl("memq://", "").grade, Grade::kOk);
 }
 
 TEST(Doctor, KnowsWhichBuffersLoseFrames) {

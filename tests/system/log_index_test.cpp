@@ -268,10 +268,10 @@ void ExpectSound(const std::string& path) {
 TEST_F(LogIndexTest, IsSoundForMutatedLogs) {
   WriteTwoSessions();
   const std::string whole = ReadFile(path());
-  for (unsigned round = 0; round < 1500; ++round) {
+  for (unsigned round = 0; round < 500; ++round) {
     std::mt19937 random(round);
     std::string bytes = whole;
-    for (unsigned changes = 1 + random() % 8; changes > 0; --changes) {
+    for (unsigned changes = 1 + random() % 8; changes > 0 && !bytes.empty(); --changes) {
       const size_t at = random() % bytes.size();
       switch (random() % 5) {
         case 0:
@@ -296,7 +296,7 @@ TEST_F(LogIndexTest, IsSoundForMutatedLogs) {
 }
 
 TEST_F(LogIndexTest, IsSoundForRecordsOfAnyLength) {
-  for (unsigned round = 0; round < 1500; ++round) {
+  for (unsigned round = 0; round < 500; ++round) {
     std::mt19937 random(round);
     std::string bytes;
     for (int record = 0; record < 6; ++record) {

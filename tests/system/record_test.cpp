@@ -127,7 +127,7 @@ TEST_F(RecordTest, SaysWhyWhenTheLoggerEnds) {
   ASSERT_EQ(kill(logger, SIGKILL), 0);
   ASSERT_TRUE(system_.RunUntil([&] { return !system_.deaths().empty(); }));
   EXPECT_EQ(system_.deaths()[0].exit.code, 1);
-  EXPECT_THAT(system_.Logs(), HasSubstr("lcm-logger ended (killed by signal 9)"));
+  EXPECT_THAT(system_.Logs(), HasSubstr("lcm-logger ended (killed by signal 9"));
   EXPECT_EQ(Sessions(), 1u);
 }
 

@@ -103,10 +103,10 @@ TEST_F(TopTerminal, FollowsTheTerminalsSize) {
   Resize(10, 20);
   std::string drawn;
   // The page that was on its way may still have the old size.
-  for (int page = 0; page < 10 && drawn.find("\r\nq leaves; sort by: \x1b[K") == std::string::npos;
+  for (int page = 0; page < 10 && drawn.find("\r\nq leaves; sort by: s\x1b[K") == std::string::npos;
        ++page)
     drawn = ReadUntil("\x1b[J");
-  EXPECT_THAT(drawn, HasSubstr("\r\nq leaves; sort by: \x1b[K"));
+  EXPECT_THAT(drawn, HasSubstr("\r\nq leaves; sort by: s\x1b[K"));
   Press('q');
   ExpectLeftAsItWas();
 }

@@ -71,13 +71,16 @@ TEST_F(TopTest, TellsRatesAndRefusals) {
   const auto output = Top({"--json"});
   ASSERT_EQ(output.code, 0) << output.text;
   std::set<std::string> services;
-  for (const auto& row : nlohmann::json::parse(output.text)["processes"]) {
+  const auto table = nlohmann::json::parse(output.text);
+  for (const auto& row : table["processes"]) {
     services.insert(row["service"]);
     EXPECT_GT(row["rss_kb"], 1000);
     EXPECT_EQ(row["silent"], false);
-    if (row["service"] == "capture") EXPECT_GT(row["frames_per_s"], 0) << row;
-    if (row["service"] == "simulated_decoder")
+    if (row["service"] == "capture") {
+      EXPECT_GT(row["frames_per_s"], 0) << row;
+    } else {
       EXPECT_GT(row["refused"]["malformed"]["total"], 0) << row;
+    }
   }
   EXPECT_EQ(services, (std::set<std::string>{"capture", "simulated_decoder"}));
 }

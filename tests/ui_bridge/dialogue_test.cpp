@@ -51,6 +51,7 @@ class DialogueTest : public ::testing::Test {
     event.session_id = id;
     event.user = user;
     event.questions = questions;
+    event.seal.sender = sender_;
     dialogue_.OnSession(event);
   }
 
@@ -62,8 +63,12 @@ class DialogueTest : public ::testing::Test {
     query.user = user;
     query.questions_asked = asked;
     query.options = {{.text = "Yes"}, {.text = "No"}};
+    query.seal.sender = sender_;
     dialogue_.OnQuery(query);
   }
+
+  /// Of intention's IDLE, which names nobody.
+  void HearIdle() { Hear(SessionKind::kIdle, "", 0, ""); }
 
   /// A session of our own, begun.
   std::string Begin() {
@@ -75,6 +80,7 @@ class DialogueTest : public ::testing::Test {
 
   ManualClock clock_{1'700'000'000 * kSecond};
   Recorder out_;
+  std::string sender_ = "kitchen/intention";  // of what is heard
   int ids_ = 0;
   Dialogue dialogue_{{.user = "ann", .device = "test@here"},
                      clock_,
@@ -503,6 +509,65 @@ TEST_F(DialogueTest, AnotherUserIsServedAtOnceWhereNoSessionRuns) {
   Pass(2 * kSecond);
   ASSERT_FALSE(out_.requests.empty());
   EXPECT_EQ(out_.requests.back().user, "ben");
+}
+
+TEST_F(DialogueTest, AServiceThatDoesNotLeadMayBeIdle) {
+  const std::string id = Begin();
+  Ask(7, id);
+  sender_ = "bedroom/intention";
+  HearIdle();
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kRunning);
+  EXPECT_EQ(out_.withdrawn, 0);
+  EXPECT_THAT(out_.notices, IsEmpty());
+  sender_ = "kitchen/intention";
+  Hear(SessionKind::kConfirmed, id);
+  sender_ = "bedroom/intention";
+  HearIdle();
+  EXPECT_EQ(out_.shown.back(), SessionKind::kConfirmed) << "what was done stays in sight";
+  sender_ = "kitchen/intention";
+  HearIdle();
+  EXPECT_EQ(out_.shown.back(), SessionKind::kIdle);
+}
+
+TEST_F(DialogueTest, AnotherThatTakesOverWithdrawsTheQuestionAndAsksAnew) {
+  const std::string id = Begin();
+  Ask(7, id, 3);
+  dialogue_.Answer(7, {1, 0});
+  sender_ = "bedroom/intention";
+  clock_.Advance(-3600 * kSecond);  // its clock
+  Hear(SessionKind::kBegun, id);
+  EXPECT_EQ(out_.withdrawn, 1);
+  EXPECT_FALSE(dialogue_.answered());
+  Ask(8, id);
+  EXPECT_THAT(out_.presented, ElementsAre(7, 8));
+  dialogue_.Answer(8, {1, 0});
+  EXPECT_EQ(out_.answers.back().query_id, 8);
+  sender_ = "kitchen/intention";  // it comes back
+  HearIdle();
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kRunning);
+}
+
+TEST_F(DialogueTest, WhenTheLeaderIsLostAnotherThatIsIdleIsAskedAfterAWhile) {
+  const std::string id = Begin();
+  sender_ = "bedroom/intention";
+  for (int i = 0; i < 5; ++i) {
+    Pass(kSecond);
+    HearIdle();
+  }
+  Pass(kSecond);
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kRequesting);
+  EXPECT_EQ(dialogue_.session_id(), id);
+}
+
+TEST_F(DialogueTest, StaysStoppedWhileTheServiceThatStoppedDoes) {
+  Begin();
+  Hear(SessionKind::kStopped, "");
+  sender_ = "bedroom/intention";  // it has not heard of it
+  HearIdle();
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kStopped);
+  dialogue_.Resume();  // the service that stopped may be gone for good
+  HearIdle();
+  EXPECT_EQ(dialogue_.phase(), Dialogue::Phase::kIdle);
 }
 
 TEST_F(DialogueTest, SaysSoWhenIntentionFallsSilent) {

@@ -135,7 +135,8 @@ Result<int> Run(const CLI::App& app, Options& o) {
     return 0;
   }
   if (app.got_subcommand("doctor")) {
-    const auto findings = Examine({.lcm_url = o.app.lcm_url, .db = o.db, .bin_dir = OwnBinDir()});
+    const auto findings =
+        Examine({.lcm_url = o.app.lcm_url, .db = o.db, .bin_dir = OwnBinDir(), .keys = o.app.keys});
     std::fputs(Render(findings).c_str(), stdout);
     return ExitCode(findings);
   }

@@ -203,16 +203,16 @@ Finding CheckDatabase(const DoctorOptions& options) {
 
 }  // namespace
 
-Finding CheckUrl(const std::string& lcm_url) {
+Finding CheckUrl(const std::string& lcm_url, const std::string& keys) {
   const std::string what = "reach";
   if (!lcm_url.starts_with("udpm:")) return Ok(what, lcm_url + " is no network");
   const size_t at = lcm_url.find("ttl=");
   const int ttl = at == std::string::npos ? 0 : std::atoi(lcm_url.c_str() + at + 4);
   if (ttl == 0) return Ok(what, "ttl=0: nothing leaves this machine");
-  return Warn(
-      what,
-      "ttl=" + std::to_string(ttl) + ": messages leave this machine, and this version signs none",
-      "use ttl=0, or a network that only Beckon is on");
+  const std::string leaves = "ttl=" + std::to_string(ttl) + ": messages leave this machine";
+  if (!keys.empty()) return Ok(what, leaves + ", signed by the key in " + keys);
+  return Warn(what, leaves + ", and there is no key to sign them by: the services refuse that",
+              "beckon keys make, on every machine; or use ttl=0");
 }
 
 Finding CheckSocketBuffers(const std::string& lcm_url, long rmem_max) {
@@ -263,7 +263,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
   long rmem_max = 0;
   std::ifstream("/proc/sys/net/core/rmem_max") >> rmem_max;
   std::vector<Finding> findings{CheckLcm(),
-                                CheckUrl(options.lcm_url),
+                                CheckUrl(options.lcm_url, options.keys),
                                 CheckBus(options.lcm_url),
                                 CheckSocketBuffers(options.lcm_url, rmem_max),
                                 CheckPrivateNetwork(),

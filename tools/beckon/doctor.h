@@ -22,12 +22,14 @@ struct DoctorOptions {
   std::string lcm_url;
   std::string db;       // of intention; empty = where it is by default
   std::string bin_dir;  // of the services
+  std::string keys;     // folder; empty = messages are not signed
 };
 
 /// All checks, in the order they are read. Takes about a second.
 std::vector<Finding> Examine(const DoctorOptions& options);
 
-Finding CheckUrl(const std::string& lcm_url);
+/// `keys`: folder of the key that messages are signed by; empty = they are not.
+Finding CheckUrl(const std::string& lcm_url, const std::string& keys);
 Finding CheckSocketBuffers(const std::string& lcm_url, long rmem_max);
 
 /// Whether what is recognised and what can be wanted are the same categories. Both in alphabetical

@@ -3,12 +3,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 
+#include "services/base/status_reporter.h"
 #include "services/base/trust/key_folder.h"
 
 namespace beckon::tool {
@@ -17,12 +17,6 @@ namespace {
 using trust::KeyFolder;
 using trust::Node;
 using trust::Roles;
-
-std::string HostName() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
 
 /// Where a machine that has no keys yet gets them.
 std::string FolderToMake() {

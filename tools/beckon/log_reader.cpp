@@ -1,6 +1,5 @@
 #include "tools/beckon/log_reader.h"
 
-#include <lcm/eventlog.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -33,36 +32,32 @@ int64_t SizeOf(FILE* file) {
 
 }  // namespace
 
-/// What a record says of itself. liblcm trusts it (and ends the process, or takes gigabytes, where
-/// it should not), so it is looked at before liblcm reads the record.
+/// What a record says of itself, within its limits.
 struct LogReader::Header {
   int64_t offset;
   int64_t end;
+  Utime utime;
+  size_t channel_bytes;
 };
-
-void LogReader::CloseLog::operator()(_lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
-void LogReader::FreeEvent::operator()(_lcm_eventlog_event_t* event) const {
-  lcm_eventlog_free_event(event);
-}
 
 Result<LogReader> LogReader::Open(const std::string& path) {
   struct stat about {};
   if (stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode)) {
     return Error{path + ": is no file; expected a log of lcm-logger or 'beckon record'"};
   }
-  lcm_eventlog_t* log = lcm_eventlog_create(path.c_str(), "r");
-  if (log == nullptr) {
+  FILE* file = fopen(path.c_str(), "rb");
+  if (file == nullptr) {
     return Error{path + ": cannot be read (" + std::strerror(errno) +
                  "); expected a log of lcm-logger or 'beckon record'"};
   }
-  return LogReader(log);
+  return LogReader(file);
 }
 
 std::optional<LogReader::Header> LogReader::HeaderAt(int64_t offset, int64_t size) {
   if (size - offset < kHeaderBytes) return std::nullopt;
   std::array<uint8_t, kHeaderBytes> bytes;
-  if (fseeko(log_->f, offset, SEEK_SET) != 0 ||
-      fread(bytes.data(), 1, bytes.size(), log_->f) != bytes.size() ||
+  if (fseeko(file_.get(), offset, SEEK_SET) != 0 ||
+      fread(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
       !std::equal(kSync.begin(), kSync.end(), bytes.begin())) {
     return std::nullopt;
   }
@@ -70,14 +65,14 @@ std::optional<LogReader::Header> LogReader::HeaderAt(int64_t offset, int64_t siz
   const uint32_t channel = BigEndian(&bytes[20]), data = BigEndian(&bytes[24]);
   if (utime > kLatestUtime || channel < 1 || channel > kMostChannelBytes || data > kMostDataBytes)
     return std::nullopt;
-  return Header{offset, offset + kHeaderBytes + channel + data};
+  return Header{offset, offset + kHeaderBytes + channel + data, static_cast<Utime>(utime), channel};
 }
 
 std::optional<int64_t> LogReader::NextSync(int64_t from, int64_t size) {
   std::vector<uint8_t> block(1 << 16);
   while (from + static_cast<int64_t>(kSync.size()) <= size) {
-    if (fseeko(log_->f, from, SEEK_SET) != 0) return std::nullopt;
-    const size_t n = fread(block.data(), 1, block.size(), log_->f);
+    if (fseeko(file_.get(), from, SEEK_SET) != 0) return std::nullopt;
+    const size_t n = fread(block.data(), 1, block.size(), file_.get());
     if (n < kSync.size()) return std::nullopt;
     const auto end = block.begin() + static_cast<std::ptrdiff_t>(n);
     const auto found = std::search(block.begin(), end, kSync.begin(), kSync.end());
@@ -97,19 +92,20 @@ std::optional<int64_t> LogReader::NextWhole(int64_t from, int64_t size) {
 }
 
 std::optional<LoggedMessage> LogReader::Read(const Header& header) {
-  if (fseeko(log_->f, header.offset, SEEK_SET) != 0) return std::nullopt;
-  event_.reset(lcm_eventlog_read_next_event(log_.get()));
-  if (!event_) return std::nullopt;
-  const auto* data = static_cast<const uint8_t*>(event_->data);
-  return LoggedMessage{header.offset,
-                       header.end,
-                       event_->timestamp,
-                       event_->channel,
-                       {data, static_cast<size_t>(event_->datalen)}};
+  record_.resize(static_cast<size_t>(header.end - header.offset - kHeaderBytes));
+  if (fseeko(file_.get(), header.offset + kHeaderBytes, SEEK_SET) != 0 ||
+      fread(record_.data(), 1, record_.size(), file_.get()) != record_.size()) {
+    return std::nullopt;
+  }
+  const std::span<const uint8_t> bytes(record_);
+  const auto channel = bytes.first(header.channel_bytes);
+  return LoggedMessage{header.offset, header.end, header.utime,
+                       std::string(channel.begin(), channel.end()),
+                       bytes.subspan(header.channel_bytes)};
 }
 
 std::optional<LoggedMessage> LogReader::Next() {
-  const int64_t size = SizeOf(log_->f);
+  const int64_t size = SizeOf(file_.get());
   cut_ = false;
   for (;;) {
     const auto header = HeaderAt(position_, size);

@@ -1,18 +1,18 @@
 // Reads an LCM event log message by message, also one that is still written, was cut off, or is
-// damaged: what is whole is found.
+// damaged: what is whole is found. liblcm's own reader trusts the lengths it reads: it takes
+// gigabytes, or ends the process, and gives up at the first damage.
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "services/base/result.h"
 #include "services/base/utime.h"
-
-struct _lcm_eventlog_t;
-struct _lcm_eventlog_event_t;
 
 namespace beckon::tool {
 
@@ -44,21 +44,18 @@ class LogReader {
 
  private:
   struct Header;
-  struct CloseLog {
-    void operator()(_lcm_eventlog_t* log) const;
-  };
-  struct FreeEvent {
-    void operator()(_lcm_eventlog_event_t* event) const;
+  struct Close {
+    void operator()(FILE* file) const { fclose(file); }
   };
 
-  explicit LogReader(_lcm_eventlog_t* log) : log_(log) {}
+  explicit LogReader(FILE* file) : file_(file) {}
   std::optional<Header> HeaderAt(int64_t offset, int64_t size);
   std::optional<int64_t> NextWhole(int64_t from, int64_t size);
   std::optional<int64_t> NextSync(int64_t from, int64_t size);
   std::optional<LoggedMessage> Read(const Header& header);
 
-  std::unique_ptr<_lcm_eventlog_t, CloseLog> log_;
-  std::unique_ptr<_lcm_eventlog_event_t, FreeEvent> event_;
+  std::unique_ptr<FILE, Close> file_;
+  std::vector<uint8_t> record_;  // channel and data of the latest message
   int64_t position_ = 0;
   int64_t skipped_bytes_ = 0;
   bool cut_ = false;

@@ -54,7 +54,7 @@ class Screen {
 
   void Draw(const std::vector<std::string>& lines) {
     std::string page = "\x1b[H";
-    for (size_t i = 0; i < lines.size(); ++i) page += (i == 0 ? "" : "\r\n") + lines[i] + "\x1b[K";
+    for (size_t i = 0; i < lines.size(); ++i) page += (i == 0 ? "" : "\n") + lines[i] + "\x1b[K";
     Put(page + "\x1b[J");
   }
 

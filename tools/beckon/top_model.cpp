@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <string_view>
+#include <tuple>
 
 namespace beckon::tool {
 namespace {
@@ -145,8 +146,8 @@ bool Before(const TopRow& a, const TopRow& b, TopSort sort) {
   const double weight_a = Weight(a, sort), weight_b = Weight(b, sort);
   if (weight_a != weight_b) return weight_a > weight_b;
   if (sort == TopSort::kHost && a.host != b.host) return a.host < b.host;
-  return std::tuple(Place(a.service), std::cref(a.service), std::cref(a.host), a.pid) <
-         std::tuple(Place(b.service), std::cref(b.service), std::cref(b.host), b.pid);
+  const int place_a = Place(a.service), place_b = Place(b.service);
+  return std::tie(place_a, a.service, a.host, a.pid) < std::tie(place_b, b.service, b.host, b.pid);
 }
 
 }  // namespace
@@ -180,8 +181,9 @@ void TopModel::OnStatus(const msg::Status& status, Utime now) {
     Forget(status, now);
     if (processes_.size() >= kMostProcesses) return;
   }
-  Process& process = processes_[key];
-  if (process.heard != 0) {
+  const auto [entry, is_new] = processes_.try_emplace(key);
+  Process& process = entry->second;
+  if (!is_new) {
     if (status.utime <= process.latest.utime &&
         status.started_utime == process.latest.started_utime)
       return;  // a late copy

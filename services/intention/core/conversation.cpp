@@ -16,8 +16,12 @@ constexpr size_t kRememberedRequests = 64;
 }  // namespace
 
 Conversation::Conversation(const Affordances& affordances, const Policy& policy, Memory& memory,
-                           const ConversationConfig& config)
-    : affordances_(affordances), policy_(policy), memory_(memory), config_(config) {}
+                           const ConversationConfig& config, MayAct may_act)
+    : affordances_(affordances),
+      policy_(policy),
+      memory_(memory),
+      config_(config),
+      may_act_(std::move(may_act)) {}
 
 Conversation::~Conversation() = default;
 

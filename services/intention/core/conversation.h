@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,7 +49,7 @@ struct Refused {
 
 /// Unsealed messages, to be published in this order.
 using Outgoing = std::variant<msg::Query, msg::Session, msg::Task, msg::TaskStatus, msg::Label,
-                              msg::Profile, Refused>;
+                              msg::Profile, msg::Lease, Refused>;
 using Actions = std::vector<Outgoing>;
 
 struct ConversationCounters {
@@ -67,11 +68,16 @@ struct ConversationCounters {
   int64_t unknown_categories = 0;  // objects of sessions, of a category not in the affordances
 };
 
+/// Whether what a user confirmed may be promised and done at this very moment.
+using MayAct = std::function<bool(const std::string& user)>;
+
 class Conversation {
  public:
-  /// Everything passed in must outlive the conversation.
-  Conversation(const Affordances& affordances, const Policy& policy, Memory& memory,
-               const ConversationConfig& config = {});
+  /// Everything passed in must outlive the conversation. While `may_act` says no, what a user
+  /// accepted waits.
+  Conversation(
+      const Affordances& affordances, const Policy& policy, Memory& memory,
+      const ConversationConfig& config = {}, MayAct may_act = [](const auto&) { return true; });
   ~Conversation();
 
   /// Takes up what an earlier run left: open tasks, the stopped state. Call once, first.
@@ -85,6 +91,22 @@ class Conversation {
   Actions OnTaskStatus(const msg::TaskStatus& status, Utime now);
   /// Repeats what is due; call every 0.1 s.
   Actions Tick(Utime now);
+
+  // Several services lead conversations on one bus, see LedConversation.
+  /// Begins anew, with the same id, a session that was led elsewhere, and says so.
+  Actions TakeOver(const msg::Session& request, Utime now);
+  /// Drops the user's session without a word: another leads it.
+  void Withdraw(const std::string& user);
+  /// A session of another service ended (CONFIRMED or ABANDONED).
+  void NoteEnd(const msg::Session& event);
+  bool Runs(const std::string& user) const { return talks_.contains(user); }
+  /// Whose session runs under this id.
+  std::optional<std::string> UserOf(const std::string& session_id) const;
+  /// Whether a session of this id ended, or may have: the memory fails.
+  bool IsOver(const std::string& session_id) const;
+  bool HasScene(Utime now) const { return scene_ && now - scene_arrived_ <= config_.scene_max_age; }
+  /// What is said of a task that was confirmed.
+  std::string DoneText(const msg::Task& task) const;
 
   const ConversationCounters& counters() const { return counters_; }
   bool stopped() const { return stopped_; }
@@ -103,6 +125,7 @@ class Conversation {
   using RequestIdentity = std::tuple<msg::SessionKind, std::string, std::string, Utime>;
 
   void Start(const msg::Session& request, Utime now);
+  Talk* NewTalk(const msg::Session& request);
   void TryBegin(Talk& talk, Utime now);
   /// Takes the newest scene. False: it went on waiting for one.
   bool TakeScene(Talk& talk, Utime now);
@@ -141,12 +164,14 @@ class Conversation {
   void Confirm(Talk& talk, const AcceptedTask& accepted, Utime now);
   void Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels);
   void End(std::string user);
+  void Remember(const msg::Session& end);
   void Stop(const msg::Session& request, Utime now);
   void Resume(const msg::Session& request, Utime now);
   /// Tells front ends of a user's past.
   void TellProfile(const std::string& user, Utime now);
   void TellProfiles(Utime now);
   void RevokeTasks(Utime now);
+  void TellTask(PendingTask& pending, Utime now);
   void RepeatTasks(Utime now);
 
   msg::Task MakeTask(const Talk& talk, const AcceptedTask& accepted, Utime now) const;
@@ -169,6 +194,7 @@ class Conversation {
   const Policy& policy_;
   Memory& memory_;
   const ConversationConfig config_;
+  const MayAct may_act_;
 
   Actions actions_;  // of the event being handled
   ConversationCounters counters_;

@@ -40,14 +40,13 @@ Actions Conversation::Recover(Utime now) {
     for (const msg::Task& task : *open) {
       tasks_.insert_or_assign(
           task.task_id,
-          PendingTask{task, 0, SceneFollower(SceneOf(task), 0, config_.follow), 0, {}});
+          PendingTask{task, 0, SceneFollower(SceneOf(task), 0, config_.follow), 0, {}, true});
       if (task.expires_utime <= now) continue;
       latest_ = Event(msg::SessionKind::kConfirmed, now);
       latest_.session_id = task.task_id;
       latest_.user = task.user;
       latest_.questions = task.questions;
-      latest_.text =
-          DoneText(TaskText(affordances_, task.action, task.object.category, config_.phrases));
+      latest_.text = DoneText(task);
     }
   }
   if (stopped_) {
@@ -82,17 +81,23 @@ void Conversation::Start(const msg::Session& request, Utime now) {
     actions_.push_back(confirmed);
     return;
   }
+  if (Talk* talk = NewTalk(request)) TryBegin(*talk, now);
+}
+
+/// Null: it was one too many.
+Conversation::Talk* Conversation::NewTalk(const msg::Session& request) {
   if (static_cast<int>(talks_.size()) >= config_.max_sessions) {
-    return Refuse(kSessionChannel, refusal::kTooMany,
-                  "a session of '" + request.user + "' is one more than " +
-                      std::to_string(config_.max_sessions) + " at a time");
+    Refuse(kSessionChannel, refusal::kTooMany,
+           "a session of '" + request.user + "' is one more than " +
+               std::to_string(config_.max_sessions) + " at a time");
+    return nullptr;
   }
   ++counters_.sessions;
   auto& talk = talks_[request.user] = std::make_unique<Talk>();
   talk->session_id = request.session_id;
   talk->user = request.user;
   talk->device = request.device;
-  TryBegin(*talk, now);
+  return talk.get();
 }
 
 /// Asks the first question as soon as scene and poses are there, or says what it waits for.
@@ -115,7 +120,7 @@ void Conversation::WaitFor(Talk& talk, const std::string& what, Utime now) {
 
 bool Conversation::TakeScene(Talk& talk, Utime now) {
   std::string missing;
-  if (!scene_ || now - scene_arrived_ > config_.scene_max_age) {
+  if (!HasScene(now)) {
     missing = Finished(config_.phrases.waiting_for_picture);
   } else if (!scene_->has_table) {
     missing = Finished(config_.phrases.waiting_for_table);

@@ -53,9 +53,10 @@ msg::Task Conversation::MakeTask(const Talk& talk, const AcceptedTask& accepted,
   return task;
 }
 
-/// On disk first, then the task; neither where its object is not seen at its place.
+/// On disk first, then the task; neither where its object is not seen at its place, or where
+/// another may have begun to speak for the user.
 void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) {
-  if (HoldBack(talk, accepted, now)) return;
+  if (HoldBack(talk, accepted, now) || !may_act_(talk.user)) return;
   SessionRecord record;
   record.session_id = talk.session_id;
   record.user = talk.user;
@@ -77,13 +78,18 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
                                  committed.error().message)),
                    now, false);
   }
+  // The disk may have taken its time: then it comes here again, or is withdrawn.
+  const bool may_tell = may_act_(talk.user);
   if (*committed) {
     ++counters_.confirmed;
-    ++counters_.tasks;
+    SceneFollower table = may_tell ? *std::move(talk.table) : *talk.table;
     tasks_.insert_or_assign(task.task_id,
-                            PendingTask{task, now, *std::move(talk.table), accepted.object, {}});
-    actions_.push_back(task);
+                            PendingTask{task, 0, std::move(table), accepted.object, {}, false});
   }
+  if (!may_tell) return;
+  if (const auto own = tasks_.find(task.task_id);
+      own != tasks_.end() && !own->second.told && !own->second.revoked)
+    TellTask(own->second, now);
   msg::Session event = Event(msg::SessionKind::kConfirmed, now);
   event.session_id = record.session_id;
   event.user = record.user;
@@ -97,6 +103,10 @@ void Conversation::Confirm(Talk& talk, const AcceptedTask& accepted, Utime now) 
 
 std::string Conversation::DoneText(const std::string& task) const {
   return Finished(Fill(config_.phrases, config_.phrases.done, "task", task));
+}
+
+std::string Conversation::DoneText(const msg::Task& task) const {
+  return DoneText(TaskText(affordances_, task.action, task.object.category, config_.phrases));
 }
 
 void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool keep_labels) {
@@ -117,9 +127,13 @@ void Conversation::Abandon(Talk& talk, const std::string& text, Utime now, bool 
 }
 
 void Conversation::End(std::string user) {
-  ended_.push_back(latest_);
-  if (ended_.size() > kRememberedEnds) ended_.pop_front();
+  Remember(latest_);
   talks_.erase(user);
+}
+
+void Conversation::Remember(const msg::Session& end) {
+  ended_.push_back(end);
+  if (ended_.size() > kRememberedEnds) ended_.pop_front();
 }
 
 void Conversation::Stop(const msg::Session& request, Utime now) {
@@ -168,6 +182,13 @@ Actions Conversation::OnTaskStatus(const msg::TaskStatus& status, Utime now) {
   return Taken();
 }
 
+void Conversation::TellTask(PendingTask& pending, Utime now) {
+  counters_.tasks += pending.told ? 0 : 1;
+  pending.told = true;
+  pending.sent = now;
+  actions_.push_back(pending.task);
+}
+
 void Conversation::RepeatTasks(Utime now) {
   for (auto entry = tasks_.begin(); entry != tasks_.end();) {
     auto& [id, pending] = *entry;
@@ -185,14 +206,14 @@ void Conversation::RepeatTasks(Utime now) {
       entry = tasks_.erase(entry);
       continue;
     }
-    const bool in_doubt = IsFresh(pending.table, now) && !IsInView(pending);
+    const bool in_doubt = (IsFresh(pending.table, now) && !IsInView(pending)) || !pending.told;
     if (now - pending.sent >= config_.task_period && (pending.revoked || !in_doubt)) {
       pending.sent = now;
       if (pending.revoked) {
         pending.revoked->utime = now;
         actions_.push_back(*pending.revoked);
       } else {
-        actions_.push_back(pending.task);
+        TellTask(pending, now);
       }
     }
     ++entry;

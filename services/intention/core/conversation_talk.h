@@ -36,6 +36,7 @@ struct Conversation::PendingTask {
   SceneFollower table;
   int object = 0;  // of the table
   std::optional<msg::TaskStatus> revoked;
+  bool told = false;  // published, in this run or maybe an earlier one
 };
 
 }  // namespace beckon::intention

@@ -117,6 +117,7 @@ const std::vector<Sentence>& Sentences() {
       {"session", "nothing_to_do", &Phrases::nothing_to_do, {}},
       {"session", "none_of_the_tasks", &Phrases::none_of_the_tasks, {}},
       {"session", "start_again", &Phrases::start_again, {}},
+      {"session", "taken_over", &Phrases::taken_over, {}},
       {"session", "object_moved", &Phrases::object_moved, {"object"}},
       {"session", "object_gone", &Phrases::object_gone, {"object"}},
       {"session", "looking_for", &Phrases::looking_for, {"object"}},

@@ -107,6 +107,7 @@ struct Phrases {
   std::string nothing_to_do;  // with these objects
   std::string none_of_the_tasks;
   std::string start_again;
+  std::string taken_over;      // another machine asked until now
   std::string object_moved;    // {object}: "{object} has moved."
   std::string object_gone;     // {object}
   std::string looking_for;     // {object}: the session waits until it is seen

@@ -64,6 +64,7 @@ Phrases MakeEnglish() {
   p.nothing_to_do = "I know of nothing to do with the objects on the table. Nothing was done.";
   p.none_of_the_tasks = "it is none of the tasks that I know for these objects. Nothing was done.";
   p.start_again = "I am not sure what you want. Let us start again.";
+  p.taken_over = "the machine that asked you fell silent. Let us start again.";
   p.object_moved = "{object} has moved.";
   p.object_gone = "{object} is gone.";
   p.looking_for = "making sure that {object} is still there.";

@@ -3,12 +3,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cctype>
 #include <cstdio>
 #include <utility>
 
 #include "services/base/app.h"
+#include "services/base/status_reporter.h"
 #include "services/ui_bridge/web/access_token.h"
 #include "services/ui_bridge/web/listen_socket.h"
 #include "services/ui_bridge/web/web_front_end.h"
@@ -21,20 +21,14 @@ std::string LowerCase(std::string text) {
   return text;
 }
 
-std::string HostName() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return LowerCase(name.data());
-}
-
 /// Who may talk to a server on this socket.
 Result<AccessRules> Rules(const WebConfig& config, const ListenSocket& socket) {
   AccessRules rules{.loopback = socket.loopback};
   for (const auto& host : config.hosts) rules.hosts.push_back(LowerCase(host));
   rules.cookie = "beckon_" + std::to_string(socket.port);
   if (socket.loopback) return rules;
-  rules.hosts.push_back(HostName());
-  rules.hosts.push_back(HostName() + ".local");
+  rules.hosts.push_back(LowerCase(HostName()));
+  rules.hosts.push_back(LowerCase(HostName()) + ".local");
   const std::string file = config.data.empty() ? DataFile("web/token") : config.data + "/token";
   auto token = LoadOrMakeToken(file);
   if (!token) return token.error();
