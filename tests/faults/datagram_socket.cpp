@@ -59,8 +59,8 @@ Datagram DatagramSocket::Hear() {
 
 bool DatagramSocket::Say(std::span<const uint8_t> datagram) {
   const sockaddr_in group = Group();
-  return sendto(fd_, datagram.data(), datagram.size(), 0,
-                reinterpret_cast<const sockaddr*>(&group), sizeof group) >= 0;
+  return sendto(fd_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&group),
+                sizeof group) >= 0;
 }
 
 size_t DatagramSocket::Say(std::span<const Datagram> datagrams) {

@@ -10,7 +10,6 @@
 
 namespace beckon::faults {
 
-
 class DatagramSocket {
  public:
   /// With `stays` nothing that is said leaves the host.

@@ -1,5 +1,5 @@
-// Forged, replayed, expired, altered messages, and such of the wrong role, at signed services in the
-// middle of their conversations.
+// Forged, replayed, expired, altered messages, and such of the wrong role, at signed services in
+// the middle of their conversations.
 #include <algorithm>
 #include <random>
 
@@ -72,14 +72,16 @@ class Attack {
         const int64_t genuine = traffic.heard - traffic.said;
         const int64_t believed = std::max<int64_t>(0, received - refused_here - genuine);
         if (believed > 0) {
-          verdict.Breach(std::to_string(believed) + " of " + std::to_string(traffic.said) +
-                         " on " + channel + " were believed by " + service);
+          verdict.Breach(std::to_string(believed) + " of " + std::to_string(traffic.said) + " on " +
+                         channel + " were believed by " + service);
         }
         arrived += traffic.said;
         refused += refused_here;
         accepted += believed;
-        verdict.details["services"][service][channel] = {
-            {"said", traffic.said}, {"received", received}, {"refused", refused_here}, {"genuine", genuine}};
+        verdict.details["services"][service][channel] = {{"said", traffic.said},
+                                                         {"received", received},
+                                                         {"refused", refused_here},
+                                                         {"genuine", genuine}};
       }
     }
     for (const auto& [kind, count] : made_) verdict.details["said"][kind] = count;

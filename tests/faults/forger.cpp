@@ -15,7 +15,9 @@ constexpr Utime kHeldBack = 5 * kSecond;  // beyond its life
 constexpr int kTries = 30;                // to alter a message within its type's rules
 
 template <typename T>
-constexpr bool kSealed = requires(T message) { message.seal; };
+constexpr bool kSealed = requires(T message) {
+  message.seal;
+};
 
 void SealAs(const trust::OwnKey& key, Utime now, msg::Seal& seal) {
   seal.counter = now;

@@ -1,5 +1,5 @@
-// Messages that are not to be believed, made of ones that are, as somebody on the network could: one
-// kind for each reason to refuse a message.
+// Messages that are not to be believed, made of ones that are, as somebody on the network could:
+// one kind for each reason to refuse a message.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ enum class Forgery {
   kReplayed     // sent again as it was
 };
 inline constexpr std::array kForgeries = {
-    std::pair{Forgery::kUnsigned, "unsigned"},  std::pair{Forgery::kUnknownKey, "unknown key"},
+    std::pair{Forgery::kUnsigned, "unsigned"},   std::pair{Forgery::kUnknownKey, "unknown key"},
     std::pair{Forgery::kRevoked, "revoked key"}, std::pair{Forgery::kWrongRole, "wrong role"},
-    std::pair{Forgery::kExpired, "expired"},    std::pair{Forgery::kAltered, "altered"},
+    std::pair{Forgery::kExpired, "expired"},     std::pair{Forgery::kAltered, "altered"},
     std::pair{Forgery::kReplayed, "replayed"}};
 
 class Forger {

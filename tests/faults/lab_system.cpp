@@ -92,19 +92,12 @@ Status LabSystem::StartUser() {
       tool::UiBridgeSpec(config_, {"simulated"}, std::string(kAction) + ":" + kCategory, false));
 }
 
-bool LabSystem::RunUntil(const std::function<bool()>& condition, double timeout_s) {
-  if (condition()) return true;
-  bool met = false;
-  const auto look = loop_.Every(2'000, [&] {
-    met = condition();
-    if (met) loop_.Stop();
-  });
-  const auto deadline =
-      loop_.After(static_cast<Utime>(timeout_s * kSecond), [this] { loop_.Stop(); });
-  loop_.Run();
-  loop_.Cancel(look);
-  loop_.Cancel(deadline);
-  return met;
+Status LabSystem::StartPage() {
+  const std::string file = config_.run_dir + "/page.toml";
+  std::ofstream(file) << "[web]\nport = 0\n";
+  auto spec = tool::UiBridgeSpec(config_, {"web"}, "", false);
+  spec.args.insert(spec.args.end(), {"--config", file});
+  return Start(placement_.bedside, spec);
 }
 
 bool LabSystem::AllAnswer(double timeout_s) {

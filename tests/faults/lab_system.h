@@ -2,6 +2,7 @@
 // this program.
 #pragma once
 
+#include <csignal>
 #include <functional>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "services/base/run_loop.h"
 #include "tests/faults/lab.h"
+#include "tests/faults/run_until.h"
 #include "tests/faults/trial.h"
 #include "tools/beckon/bus_watch.h"
 #include "tools/beckon/fleet.h"
@@ -42,10 +44,14 @@ class LabSystem {
   Status StartServices();
   /// A simulated user who wants one thing over and over.
   Status StartUser();
+  /// The page instead, without anybody in front of it.
+  Status StartPage();
   void StopUser() { supervisor_.Stop("ui_bridge", SIGTERM, 5000); }
 
   /// Runs the loop until `condition`; false after `timeout_s`.
-  bool RunUntil(const std::function<bool()>& condition, double timeout_s = 30);
+  bool RunUntil(const std::function<bool()>& condition, double timeout_s = 30) {
+    return faults::RunUntil(loop_, condition, timeout_s);
+  }
   void Run(double seconds) {
     RunUntil([] { return false; }, seconds);
   }

@@ -31,6 +31,22 @@ constexpr Property kProperties[] = {
      "1,000 kills: no acknowledged session lost or doubled, integrity_check ok, the dialogue "
      "resumes",
      RunKills, 10, 1000},
+    {"forged", "forged, replayed, expired, altered control messages", "0 of 100,000 accepted",
+     RunForged, 2000, 100'000},
+    {"mutations", "mutated datagrams at the live system",
+     "1,000,000 datagrams: no crash, no hang, no task published; 50,000 junk datagrams/s: goes on, "
+     "or "
+     "resumes within 1 s of their end",
+     RunMutations, 20'000, 1'000'000},
+    {"partitions", "partitions, restarts, clock skew of +-1 h among 3 machines",
+     "200 runs: all converge within 5 s of healing, the union exact", RunPartitions, 2, 200},
+    {"loss", "control messages under image load with 1 % loss, duplicates, reordering",
+     "no task lost, doubled or wrong in 100,000", RunLoss, 50, 100'000},
+    {"stop", "stop pressed to robot told, under full load", "p99.9 <= 100 ms", RunStop, 50, 2000},
+    {"soak", "soak: frames and simulated sessions", "an hour: flat memory, no drop unaccounted",
+     RunSoak, 20, 3600},
+    {"bad-inputs", "database damaged, disk full or read-only, clock off by a day",
+     "a clear error or service; nothing promised that is not stored", RunBadInputs, 1, 1},
 };
 
 /// One line of a table; what was found may be long.

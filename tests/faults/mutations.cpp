@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kHub = 0, kRobot = 1;
 constexpr Placement kOnOneHost = {.camera = kHub, .hub = kHub, .bedside = kHub, .robot = kRobot};
 constexpr size_t kRecorded = 400;
-constexpr int kBurst = 10;         // each 2 ms
+constexpr int kBurst = 10;  // each 2 ms
 constexpr double kFloodSeconds = 5;
 constexpr int kFloodPerSecond = 50'000;
 
@@ -23,7 +23,8 @@ std::string DeathsSince(const LabSystem& system, size_t before) {
   std::string text;
   for (size_t i = before; i < system.deaths().size(); ++i) {
     const auto& death = system.deaths()[i];
-    text += (text.empty() ? "" : "; ") + death.name + ": " + death.exit.Text() + " " + death.last_line;
+    text +=
+        (text.empty() ? "" : "; ") + death.name + ": " + death.exit.Text() + " " + death.last_line;
   }
   return text;
 }
@@ -45,7 +46,8 @@ std::vector<Datagram> Record(LabSystem& system, DatagramSocket& socket) {
 }
 
 /// Says `n` datagrams; a conversation runs meanwhile.
-void SayAll(LabSystem& system, DatagramSocket& socket, int n, const std::function<Datagram()>& make) {
+void SayAll(LabSystem& system, DatagramSocket& socket, int n,
+            const std::function<Datagram()>& make) {
   int said = 0;
   const auto timer = system.loop().Every(2'000, [&] {
     for (int i = 0; i < kBurst && said < n; ++i) said += socket.Say(make()) ? 1 : 0;
@@ -56,8 +58,10 @@ void SayAll(LabSystem& system, DatagramSocket& socket, int n, const std::functio
 
 /// The system lives, answers, and its conversation goes on.
 void MustConverse(LabSystem& system, const std::string& after, Verdict& verdict) {
-  if (!system.AllAnswer(15)) verdict.Breach("a service went silent after " + after + "\n" + system.Logs());
-  if (!system.ASessionEnds()) verdict.Breach("no session ended after " + after + "\n" + system.Logs());
+  if (!system.AllAnswer(15))
+    verdict.Breach("a service went silent after " + after + "\n" + system.Logs());
+  if (!system.ASessionEnds())
+    verdict.Breach("no session ended after " + after + "\n" + system.Logs());
   if (system.WrongTasks() > 0)
     verdict.Breach(std::to_string(system.WrongTasks()) + " tasks nobody wanted after " + after);
 }
@@ -83,7 +87,8 @@ int64_t Flood(LabSystem& system, DatagramSocket& socket, uint64_t seed) {
     for (int64_t tick = 1; goes_on; ++tick) {
       const std::span<const Datagram> part(&junk[static_cast<size_t>(tick % 20) * 50], 50);
       said += static_cast<int64_t>(socket.Say(part));
-      std::this_thread::sleep_until(begin + tick * std::chrono::microseconds(1'000'000LL * 50 / kFloodPerSecond));
+      std::this_thread::sleep_until(
+          begin + tick * std::chrono::microseconds(1'000'000LL * 50 / kFloodPerSecond));
     }
   });
   system.Run(kFloodSeconds);
@@ -156,15 +161,16 @@ Result<Verdict> RunMutations(const TrialOptions& options) {
   if (verdict.holds) {
     const auto& flood = verdict.details["flood"];
     const auto& fragments = verdict.details["hostile_fragments"];
-    verdict.found = std::to_string(options.n) +
-                    " damaged datagrams: no crash, no hang, no task nobody wanted; " +
-                    std::to_string(flood["datagrams_per_s"].get<int>()) + " junk datagrams/s: " +
-                    std::to_string(flood["questions_meanwhile"].get<int>()) +
-                    " questions meanwhile, the next " +
-                    std::to_string(static_cast<int>(1000 * flood["next_question_after_s"].get<double>())) +
-                    " ms after; apart from this, " + std::to_string(fragments["said"].get<int>()) +
-                    " hostile fragments crashed liblcm in services " +
-                    std::to_string(fragments["deaths"].get<int>()) + " times, all came back";
+    verdict.found =
+        std::to_string(options.n) +
+        " damaged datagrams: no crash, no hang, no task nobody wanted; " +
+        std::to_string(flood["datagrams_per_s"].get<int>()) +
+        " junk datagrams/s: " + std::to_string(flood["questions_meanwhile"].get<int>()) +
+        " questions meanwhile, the next " +
+        std::to_string(static_cast<int>(1000 * flood["next_question_after_s"].get<double>())) +
+        " ms after; apart from this, " + std::to_string(fragments["said"].get<int>()) +
+        " hostile fragments crashed liblcm in services " +
+        std::to_string(fragments["deaths"].get<int>()) + " times, all came back";
   }
   return verdict;
 }

@@ -8,12 +8,14 @@ namespace beckon::faults {
 namespace {
 
 // LCM's UDP protocol: "LC02", number, channel, 0, message; or "LC03", number, size of the whole
-// message, offset of this part, number of this part, number of parts, (in part 0: channel, 0), part.
+// message, offset of this part, number of this part, number of parts, (in part 0: channel, 0),
+// part.
 constexpr size_t kHeader = 8;
 constexpr std::array<uint8_t, 4> kShort = {'L', 'C', '0', '2'}, kPart = {'L', 'C', '0', '3'};
 constexpr size_t kLongestChannel = 63;
-constexpr std::array<const char*, 6> kChannels = {"BECKON_FRAME", "BECKON_SCENE",  "BECKON_QUERY",
-                                                  "BECKON_TASK",  "BECKON_ANSWER", "BECKON_SESSION"};
+constexpr std::array<const char*, 6> kChannels = {"BECKON_FRAME",  "BECKON_SCENE",
+                                                  "BECKON_QUERY",  "BECKON_TASK",
+                                                  "BECKON_ANSWER", "BECKON_SESSION"};
 
 void Append(Datagram& datagram, uint32_t value, int bytes) {
   for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
@@ -62,8 +64,8 @@ void Mutator::WriteHugeLength(Datagram& datagram) {
   if (datagram.size() < body + 4) return;
   Datagram length;
   Append(length, Extreme(), 4);
-  std::ranges::copy(length, datagram.begin() + static_cast<ptrdiff_t>(
-                                                   body + Below(datagram.size() - body - 3)));
+  std::ranges::copy(
+      length, datagram.begin() + static_cast<ptrdiff_t>(body + Below(datagram.size() - body - 3)));
 }
 
 Datagram Mutator::OtherChannel(const std::vector<Datagram>& real) {

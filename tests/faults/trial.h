@@ -33,5 +33,6 @@ Result<Verdict> RunStop(const TrialOptions& options);
 Result<Verdict> RunLoss(const TrialOptions& options);
 Result<Verdict> RunPartitions(const TrialOptions& options);
 Result<Verdict> RunSoak(const TrialOptions& options);
+Result<Verdict> RunBadInputs(const TrialOptions& options);
 
 }  // namespace beckon::faults
