@@ -388,6 +388,7 @@ struct History {
   bool complete = true;
   std::vector<HistoryDigest> digests;
   std::vector<HistoryRow> rows;
+  int refused_rows = 0;  // as received: rows left out because they are damaged; not sent
   Seal seal;
 };
 

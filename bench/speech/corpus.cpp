@@ -12,8 +12,15 @@ namespace speech = ui_bridge::speech;
 using Texts = std::vector<std::string>;
 
 const Texts& VoiceNames(Part part) {
-  static const Texts learn = {"en-us",    "en-gb",    "en-us+m1", "en-us+f3", "en-gb-scotland",
-                              "en-gb+f1", "en-us+m5", "en-gb+m3", "en-us+f5"};
+  static const Texts learn = [] {
+    Texts names;
+    for (const char* accent : {"en-us", "en-gb", "en-gb-scotland", "en-gb-x-gbcwmd"}) {
+      for (const char* variant : {"", "+m1", "+m3", "+m5", "+m8", "+f1", "+f3", "+f5", "+klatt",
+                                  "+klatt3", "+Andy", "+Annie", "+Michael", "+Linda"})
+        names.push_back(std::string(accent) + variant);
+    }
+    return names;
+  }();
   static const Texts judge = {"en-gb-x-rp",    "en-029",      "en-us-nyc", "en-us+f2",
                               "en-gb+m2",      "en-us+m7",    "en-gb+f4",  "en-gb-x-gbclan+m4",
                               "en-gb-x-rp+f2", "en-us-nyc+m6"};
@@ -252,10 +259,23 @@ std::vector<Situation> Situations(Part part) {
                                     "Push the second bowl", "Open the tin", "None of these"};
   const Texts names = learn ? Texts{"Bottle", "Bowl", "Box", "Carton", "None of these"}
                             : Texts{"Mug", "Cup", "Tube", "Spray can", "None of these"};
-  return {{"yes/no", Choice(msg::QueryKind::kFull, {"Yes", "No"})},
-          {"tasks", Choice(msg::QueryKind::kChoice, tasks)},
-          {"names", Choice(msg::QueryKind::kWhatIsIt, names)},
-          {"nothing asked", std::nullopt}};
+  std::vector<Situation> situations = {{"yes/no", Choice(msg::QueryKind::kFull, {"Yes", "No"})},
+                                       {"tasks", Choice(msg::QueryKind::kChoice, tasks)},
+                                       {"names", Choice(msg::QueryKind::kWhatIsIt, names)},
+                                       {"nothing asked", std::nullopt}};
+  if (!learn) return situations;
+  for (const Texts& more : {Texts{"Close the lid", "Lift the glass", "Fetch the towel",
+                                  "Put down the knife", "None of these"},
+                            Texts{"Turn the page", "Hold the phone", "Shake the jar",
+                                  "Give me the first book", "None of these"}}) {
+    situations.push_back({"more tasks", Choice(msg::QueryKind::kChoice, more)});
+  }
+  for (const Texts& more : {Texts{"Plate", "Kettle", "Basket", "Jar", "None of these"},
+                            Texts{"Knife", "Towel", "Jug", "Teapot", "None of these"},
+                            Texts{"Can", "Glass", "Pen", "Shoe", "None of these"}}) {
+    situations.push_back({"more names", Choice(msg::QueryKind::kWhatIsIt, more)});
+  }
+  return situations;
 }
 
 Voice Draw(Part part, size_t turn, std::mt19937_64& random) {
@@ -267,7 +287,7 @@ Voice Draw(Part part, size_t turn, std::mt19937_64& random) {
 
 }  // namespace
 
-Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed) {
+Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed, const Texts& words) {
   Corpus corpus;
   corpus.situations = Situations(part);
   std::mt19937_64 random(seed);
@@ -282,7 +302,13 @@ Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed) {
           commands[c].kind != speech::CommandKind::kStart) {
         continue;
       }
-      for (const auto& phrase : commands[c].phrases) phrases.push_back({{}, s, phrase, c});
+      for (const auto& phrase : commands[c].phrases) {
+        Utterance utterance;
+        utterance.situation = s;
+        utterance.text = phrase;
+        utterance.command = c;
+        phrases.push_back(utterance);
+      }
     }
   }
   while (corpus.inside.size() < inside) {
@@ -293,6 +319,17 @@ Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed) {
     }
   }
   Texts others = Others(part);
+  if (!words.empty()) {
+    // Half of it is words of the dictionary, one or some at a time.
+    const auto& unseen = Others(Part::kJudge);
+    const size_t n = 2 * others.size();
+    while (others.size() < n) {
+      std::string text = words[random() % words.size()];
+      if (random() % 4 == 0) text += " " + words[random() % std::min<size_t>(600, words.size())];
+      const bool said = std::ranges::any_of(phrases, [&](const auto& p) { return p.text == text; });
+      if (!said && std::ranges::find(unseen, text) == unseen.end()) others.push_back(text);
+    }
+  }
   while (corpus.outside.size() < outside) {
     std::ranges::shuffle(others, random);
     for (size_t i = 0; i < others.size() && corpus.outside.size() < outside; ++i) {

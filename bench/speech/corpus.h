@@ -34,7 +34,8 @@ struct Corpus {
 enum class Part { kLearn, kJudge };
 
 /// `inside` commands (whole rounds over the phrases, voices in turn) and `outside` other
-/// utterances. The parts share neither voices, nor speeds, nor objects, nor other utterances.
-Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed);
+/// utterances, for learning also such of `words`. The parts share neither voices, nor speeds, nor objects, nor other utterances.
+Corpus MakeCorpus(Part part, size_t inside, size_t outside, uint64_t seed,
+                  const std::vector<std::string>& words = {});
 
 }  // namespace beckon::bench

@@ -59,10 +59,25 @@ nlohmann::json ToJson(const Tally& t) {
           {"others", t.others},   {"false_stops", t.false_stops}};
 }
 
+/// Of the dictionary, to learn what is no command from.
+Result<std::vector<std::string>> CommonWords() {
+  const std::string folder = speech::kModelFolder;
+  const auto lexicon = speech::LoadLexicon(folder);
+  if (!lexicon) return lexicon.error();
+  const auto frequent = speech::FrequentWords(folder, *lexicon);
+  if (!frequent) return frequent.error();
+  std::vector<std::string> words;
+  for (size_t i = 0; i < std::min<size_t>(6'000, frequent->size()); ++i)
+    words.push_back((*frequent)[i].word);
+  return words;
+}
+
 Status Learn(const Options& options, speech::Recogniser& recogniser,
              const std::vector<double>& babble) {
+  const auto words = CommonWords();
+  if (!words) return words.error();
   const Corpus corpus = MakeCorpus(Part::kLearn, static_cast<size_t>(options.inside),
-                                   static_cast<size_t>(options.outside), options.seed);
+                                   static_cast<size_t>(options.outside), options.seed, *words);
   Trials trials(recogniser, corpus, babble);
   std::vector<Example> examples;
   for (const Condition& condition :
@@ -93,15 +108,19 @@ Status JudgeAll(const Options& options, speech::Recogniser& recogniser,
       "| noise | commands right | wrong | asked again | outside accepted | stop missed | false "
       "stop "
       "|\n|---|---|---|---|---|---|---|\n";
+  std::string questions =
+      "| asked, in quiet | commands right | wrong | outside accepted |\n|---|---|---|---|\n";
   std::string voices = "| voice, in quiet | commands right | outside accepted |\n|---|---|---|\n";
   for (const auto& condition : conditions) {
     auto run = trials.Run(condition, options.seed + 2);
     if (!run) return run.error();
     Tally all;
     std::map<std::string, Tally> by_voice;
+    std::map<std::string, Tally> by_question;
     for (const auto& trial : *run) {
       all.Add(trial);
       by_voice[trial.utterance->voice.name].Add(trial);
+      by_question[corpus.situations[trial.utterance->situation].name].Add(trial);
     }
     json["conditions"][Name(condition)] = ToJson(all);
     table += "| " + Name(condition) + " | " + Percent(all.right, all.inside) + " | " +
@@ -112,15 +131,22 @@ Status JudgeAll(const Options& options, speech::Recogniser& recogniser,
                  Percent(all.right, all.inside).c_str(),
                  Percent(all.accepted, all.outside).c_str());
     if (condition.noise != Noise::kQuiet) continue;
+    for (const auto& [question, tally] : by_question) {
+      json["questions"][question] = ToJson(tally);
+      questions += "| " + question + " | " + Percent(tally.right, tally.inside) + " | " +
+                   std::to_string(tally.wrong) + " | " + Percent(tally.accepted, tally.outside) +
+                   " |\n";
+    }
     for (const auto& [voice, tally] : by_voice) {
       json["voices"][voice] = ToJson(tally);
       voices += "| " + voice + " | " + Percent(tally.right, tally.inside) + " | " +
                 Percent(tally.accepted, tally.outside) + " |\n";
     }
   }
-  std::cout << table << "\n" << voices;
+  const std::string tables = table + "\n" + questions + "\n" + voices;
+  std::cout << tables;
   if (!options.json.empty()) std::ofstream(options.json) << json.dump(2) << "\n";
-  if (!options.markdown.empty()) std::ofstream(options.markdown) << table << "\n" << voices;
+  if (!options.markdown.empty()) std::ofstream(options.markdown) << tables;
   return {};
 }
 

@@ -11,7 +11,16 @@ namespace beckon {
 namespace codec {
 
 constexpr int kMaxEntries = 256;
-constexpr int kMaxBody = 8192;
+constexpr int kMaxBody = 48 * 1024;
+
+static void CheckRow(Rules& rules, const msg::HistoryRow& row) {
+  rules.Name(row.origin, "origin")
+      .Require(row.seq >= 1, "seq is below 1")
+      .Time(row.hybrid_utime)
+      .Name(row.kind, "kind")
+      .Name(row.body, "body", kMaxBody);
+}
+
 
 static void Walk(Walker& w, const history_t*) {
   w.Skip(8);
@@ -45,13 +54,7 @@ static Status Check(const msg::History& history) {
   for (const auto& digest : history.digests) {
     rules.Name(digest.origin, "origin").Require(digest.highest_seq >= 0, "highest_seq is negative");
   }
-  for (const auto& row : history.rows) {
-    rules.Name(row.origin, "origin")
-        .Require(row.seq >= 1, "seq is below 1")
-        .Time(row.hybrid_utime)
-        .Name(row.kind, "kind")
-        .Name(row.body, "body", kMaxBody);
-  }
+  for (const auto& row : history.rows) CheckRow(rules, row);
   return rules;
 }
 
@@ -106,9 +109,12 @@ static Result<msg::History> FromWire(const history_t& wire) {
     history.digests.push_back({d.origin, d.highest_seq, d.checksum});
   for (const auto& r : wire.rows) {
     msg::HistoryRow row{r.origin, r.seq, r.hybrid_utime, r.kind, r.body};
-    if (Checksum(row) != r.crc)
-      return Error{"row " + std::to_string(r.seq) + " of " + r.origin + ": checksum differs"};
-    history.rows.push_back(std::move(row));
+    Rules rules("history");
+    CheckRow(rules, row);
+    if (Checksum(row) == r.crc && Status(rules))
+      history.rows.push_back(std::move(row));
+    else
+      ++history.refused_rows;  // a bad row spoils no good one
   }
   history.seal = FromWire(wire.seal);
   return history;

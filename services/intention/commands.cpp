@@ -104,7 +104,8 @@ Status CommandLine::Run() {
   history_.db = config->db;
   if (history_command_->parsed()) return PrintHistory(history_);
   if (export_command_->parsed()) return ExportHistory(history_);
-  if (import_command_->parsed()) return ImportHistory(history_, config->machine);
+  if (import_command_->parsed())
+    return ImportHistory(history_, config->machine, SystemClock().Now());
   if (forget_command_->parsed())
     return ForgetHistory(history_, config->machine, SystemClock().Now());
   if (evaluate_command_->parsed() || simulate_command_->parsed() || regret_command_->parsed()) {

@@ -28,7 +28,13 @@ Result<HistoryRow> ParseRow(const json& line) {
     const json& body = line.at("body");
     row.body = body.is_string() ? body.get<std::string>() : body.dump();
     if (row.origin.empty() || row.kind.empty()) return Error{"'origin' or 'kind' is empty"};
-    if (const auto head = HeadOf(row.origin, row.seq, row.kind, row.body); !head)
+    if (line.contains("hybrid_utime")) {
+      const json& time = line.at("hybrid_utime");
+      if (!time.is_number_integer() || time < 1)
+        return Error{"'hybrid_utime' must be a whole number from 1, found " + Plain(time.dump())};
+      time.get_to(row.hybrid_utime);
+    }
+    if (const auto head = HeadOf(row); !head)
       return Error{"not a " + Plain(row.kind) + ": " + Plain(head.error().message)};
     return row;
   } catch (const json::exception& e) {
@@ -59,7 +65,9 @@ Status PrintHistory(const HistoryOptions& options) {
   if (!options.user.empty())
     std::erase_if(*sessions, [&](const SessionRecord& s) { return s.user != options.user; });
   if (!options.json) {
-    std::fputs(HistoryText(*sessions).c_str(), stdout);
+    const auto origins = (*store)->Origins();
+    if (!origins) return origins.error();
+    std::fputs((HistoryText(*sessions) + OriginsText(*origins)).c_str(), stdout);
     return {};
   }
   for (const SessionRecord& s : *sessions) std::printf("%s\n", ToBody(s).c_str());
@@ -78,8 +86,11 @@ Status ExportHistory(const HistoryOptions& options) {
   }
   std::ostream& out = options.file.empty() ? std::cout : file;
   for (const HistoryRow& row : *rows) {
-    const ordered_json line = {
-        {"origin", row.origin}, {"seq", row.seq}, {"kind", row.kind}, {"body", row.body}};
+    const ordered_json line = {{"origin", row.origin},
+                               {"seq", row.seq},
+                               {"hybrid_utime", row.hybrid_utime},
+                               {"kind", row.kind},
+                               {"body", row.body}};
     out << line.dump() << '\n';
   }
   out.flush();
@@ -88,7 +99,7 @@ Status ExportHistory(const HistoryOptions& options) {
   return {};
 }
 
-Status ImportHistory(const HistoryOptions& options, const std::string& machine) {
+Status ImportHistory(const HistoryOptions& options, const std::string& machine, Utime now) {
   std::ifstream file;
   if (!options.file.empty()) {
     file.open(options.file, std::ios::binary);
@@ -99,7 +110,7 @@ Status ImportHistory(const HistoryOptions& options, const std::string& machine) 
   if (!rows) return rows.error();
   const auto store = Store::Open(options.db, machine);
   if (!store) return store.error();
-  const auto added = (*store)->AddRows(*rows);
+  const auto added = (*store)->AddRows(*rows, now);
   if (!added) return Error{name + ": " + added.error().message};
   std::printf("%zu rows read, %d new\n", rows->size(), *added);
   return {};

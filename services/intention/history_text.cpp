@@ -79,4 +79,17 @@ std::string HistoryText(const std::vector<SessionRecord>& sessions) {
   return text;
 }
 
+std::string OriginsText(const std::vector<OriginSummary>& origins) {
+  if (origins.empty()) return "";
+  std::string text = "\nwritten by            rows  sessions  forgotten  last\n";
+  std::array<char, 300> line{};
+  for (const OriginSummary& o : origins) {
+    std::snprintf(line.data(), line.size(), "%-20s  %4lld  %8lld  %9lld  %s\n", o.origin.c_str(),
+                  static_cast<long long>(o.rows), static_cast<long long>(o.sessions),
+                  static_cast<long long>(o.erased), LocalTime(o.last_utime).c_str());
+    text += line.data();
+  }
+  return text;
+}
+
 }  // namespace beckon::intention

@@ -23,8 +23,8 @@ LeaseHolder NewHolder(const std::string& machine) {
   return {machine, run};
 }
 
-LeadService::LeadService(LedConversation& conversation, Bus& bus, RunLoop& loop,
-                         const Clock& clock, std::function<void(const Actions&)> publish)
+LeadService::LeadService(LedConversation& conversation, Bus& bus, RunLoop& loop, const Clock& clock,
+                         std::function<void(const Actions&)> publish)
     : conversation_(conversation), loop_(loop) {
   bus.Subscribe<msg::Lease>([&conversation, &clock, publish](const msg::Lease& lease) {
     publish(conversation.OnLease(lease, clock.Now()));

@@ -5,20 +5,23 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <type_traits>
 
 #include "services/base/app.h"
 #include "services/base/status_reporter.h"
 #include "services/intention/affordances_file.h"
 #include "services/intention/core/policies.h"
+#include "services/intention/history_service.h"
 #include "services/intention/lead_service.h"
 #include "services/intention/phrases_file.h"
 #include "services/intention/store.h"
+#include "services/intention/store_recovery.h"
 
 namespace beckon::intention {
 namespace {
 
-/// A query, announcement or status that is older than this is refused by its receivers.
-constexpr Utime kMessageLifetime = 10 * kSecond;
+/// Of what is wrong, in the status.
+constexpr size_t kMostNotice = 700;
 /// Where interfaces make errors: that the user wants something we do not know of.
 constexpr double kNonePrior = 0.002;
 
@@ -49,6 +52,7 @@ Result<ServiceConfig> ReadServiceConfig(ConfigTable table) {
   table.Get("affordances", config.affordances);
   table.Get("phrases", config.phrases);
   table.Get("machine", config.machine);
+  table.Get("share_history", config.share_history);
   table.Get("task_lifetime_s", config.task_lifetime_s, 1, 3600);
   table.Get("scene_max_age_s", config.scene_max_age_s, 0.1, 3600);
   if (Status read = table.Finish(); !read) return read.error();
@@ -63,13 +67,15 @@ void FillDefaults(ServiceConfig& config) {
 }
 
 struct Service::State {
-  State(const ServiceConfig& config, Affordances known, Phrases phrases,
-        std::unique_ptr<Store> opened, Bus& the_bus, RunLoop& the_loop, const Clock& the_clock)
+  State(const ServiceConfig& config, Affordances known, Phrases phrases, OpenedStore opened,
+        Bus& the_bus, RunLoop& the_loop, const Clock& the_clock)
       : affordances(std::move(known)),
         policy(PolicyOf(config, affordances)),
-        store(std::move(opened)),
+        notice(std::move(opened.notice)),
+        store(std::move(opened.store)),
         conversation(NewHolder(config.machine), steady, affordances, *policy, *store,
                      ConversationConfigOf(config, std::move(phrases))),
+        share_history(config.share_history),
         bus(the_bus),
         loop(the_loop),
         clock(the_clock) {}
@@ -98,31 +104,21 @@ struct Service::State {
     status = std::make_unique<StatusReporter>("intention", bus, loop,
                                               [this](msg::Status& s) { Fill(s); });
     Publish(conversation.Recover(clock.Now()));
-  }
-
-  msg::Seal Seal(Utime expires) {
-    // Grows over restarts too.
-    counter = std::max(counter + 1, clock.Now());
-    msg::Seal seal;
-    seal.sender = conversation.sender();
-    seal.counter = counter;
-    seal.expires_utime = expires;
-    return seal;
+    if (share_history) {
+      history = std::make_unique<HistoryService>(
+          *store, bus, loop, clock,
+          [this](msg::History message) { PublishOne(std::move(message)); });
+    }
   }
 
   template <typename Message>
-  void Send(Message message, Utime expires) {
-    message.seal = Seal(expires);
+  void PublishOne(Message message) {
+    message.seal.sender = conversation.sender();
+    // What is to be done later is not done.
+    if constexpr (std::is_same_v<Message, msg::Task>)
+      message.seal.expires_utime = message.expires_utime;
     if (Status sent = bus.Publish(message); !sent) spdlog::error("{}", sent.error().message);
   }
-
-  void PublishOne(const msg::Query& query) { Send(query, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Session& event) { Send(event, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::TaskStatus& s) { Send(s, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Label& label) { Send(label, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Profile& profile) { Send(profile, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Lease& lease) { Send(lease, clock.Now() + kMessageLifetime); }
-  void PublishOne(const msg::Task& task) { Send(task, task.expires_utime); }
   void PublishOne(const Refused& refused) {
     bus.Refuse(refused.channel, refused.reason, refused.detail);
   }
@@ -157,19 +153,28 @@ struct Service::State {
                                         {"question_us_max", question_us_max}}) {
       s.counters.push_back({name, value});
     }
+    std::string notices = notice;
+    if (history) {
+      history->Fill(s);
+      if (const std::string more = history->Notice(); !more.empty())
+        notices += (notices.empty() ? "" : "; ") + more;
+    }
+    if (!notices.empty()) s.state += " (" + notices.substr(0, kMostNotice) + ")";
   }
 
   const Affordances affordances;
   const std::unique_ptr<Policy> policy;
+  const std::string notice;  // of how the database was found
   const std::unique_ptr<Store> store;
   const BootClock steady;
   LedConversation conversation;
+  const bool share_history;
   Bus& bus;
   RunLoop& loop;
   const Clock& clock;
   std::optional<LeadService> lead;
+  std::unique_ptr<HistoryService> history;
   std::unique_ptr<StatusReporter> status;
-  int64_t counter = 0;
   int64_t question_us = 0;  // from an answer to what follows it, last and longest
   int64_t question_us_max = 0;
 };
@@ -183,8 +188,9 @@ Result<std::unique_ptr<Service>> Service::Start(const ServiceConfig& config, Bus
   if (!affordances) return affordances.error();
   auto phrases = config.phrases.empty() ? English() : ReadPhrases(config.phrases);
   if (!phrases) return phrases.error();
-  auto store = Store::Open(config.db, config.machine);
+  auto store = OpenOrReplace(config.db, config.machine, clock.Now());
   if (!store) return store.error();
+  if (!store->notice.empty()) spdlog::error("{}", store->notice);
   auto state = std::make_unique<State>(config, *std::move(affordances), *std::move(phrases),
                                        *std::move(store), bus, loop, clock);
   state->Subscribe();

@@ -18,6 +18,7 @@ struct ServiceConfig {
   std::string affordances;          // file; empty: the one that ships with Beckon
   std::string phrases;              // file of the words; empty: the one that ships with Beckon
   std::string machine;              // name of this machine in the history; empty: its host name
+  bool share_history = true;        // with the intention services of other machines on the bus
   double task_lifetime_s = 30;      // a task that no robot took by then is void
   double scene_max_age_s = 5;       // no session begins on a scene that arrived longer ago
 };

@@ -75,6 +75,7 @@ Status Prepare(SQLite::Database& database, const std::string& path) {
   if (mode != "wal")
     return Error{path + ": the file system does not support SQLite's WAL; use another --db"};
   database.exec("PRAGMA synchronous = FULL");
+  database.exec("PRAGMA secure_delete = ON");  // what is forgotten does not stay in free pages
   return Migrate(database, path);
 }
 
@@ -95,7 +96,10 @@ Result<std::vector<Record>> ReadAll(SQLite::Statement& query,
 }  // namespace
 
 Store::Store(std::string path, std::string machine, std::unique_ptr<SQLite::Database> database)
-    : path_(std::move(path)), machine_(std::move(machine)), database_(std::move(database)) {}
+    : path_(std::move(path)),
+      machine_(std::move(machine)),
+      database_(std::move(database)),
+      origin_(machine_) {}
 Store::~Store() = default;
 
 Result<std::unique_ptr<Store>> Store::Open(const std::string& path, const std::string& machine,
@@ -112,7 +116,9 @@ Result<std::unique_ptr<Store>> Store::Open(const std::string& path, const std::s
       }
       if (Status sound = CheckSound(*database, path); !sound) return sound.error();
     }
-    return std::unique_ptr<Store>(new Store(path, machine, std::move(database)));
+    std::unique_ptr<Store> store(new Store(path, machine, std::move(database)));
+    if (mode == Mode::kWrite) store->ReadIdentity();
+    return store;
   } catch (const SQLite::Exception& e) {
     return Explain(e, path);
   }
@@ -122,8 +128,9 @@ Result<std::vector<SessionRecord>> Store::SessionsOf(const std::string& user) {
   return Try<std::vector<SessionRecord>>([&]() -> Result<std::vector<SessionRecord>> {
     SQLite::Statement query(
         *database_,
-        "SELECT body FROM (SELECT body, utime, origin, seq FROM sessions WHERE user = ? "
-        "ORDER BY utime DESC, origin DESC, seq DESC LIMIT ?) ORDER BY utime, origin, seq");
+        "SELECT body FROM (SELECT body, hybrid_utime, origin, seq FROM sessions WHERE user = ? "
+        "ORDER BY hybrid_utime DESC, origin DESC, seq DESC LIMIT ?) "
+        "ORDER BY hybrid_utime, origin, seq");
     query.bind(1, user);
     query.bind(2, kMostSessions);
     return ReadAll(query, SessionFromBody, path_ + ": a session");
@@ -132,15 +139,18 @@ Result<std::vector<SessionRecord>> Store::SessionsOf(const std::string& user) {
 
 Result<std::vector<SessionRecord>> Store::AllSessions() {
   return Try<std::vector<SessionRecord>>([&]() -> Result<std::vector<SessionRecord>> {
-    SQLite::Statement query(*database_, "SELECT body FROM sessions ORDER BY utime, origin, seq");
+    SQLite::Statement query(*database_,
+                            "SELECT body FROM sessions ORDER BY hybrid_utime, origin, seq");
     return ReadAll(query, SessionFromBody, path_ + ": a session");
   });
 }
 
 Result<std::vector<std::string>> Store::Users() {
   return Try<std::vector<std::string>>([&]() -> Result<std::vector<std::string>> {
-    SQLite::Statement query(*database_,
-                            "SELECT user FROM sessions GROUP BY user ORDER BY MAX(utime) DESC");
+    SQLite::Statement query(
+        *database_,
+
+        "SELECT user FROM sessions GROUP BY user ORDER BY MAX(hybrid_utime) DESC");
     std::vector<std::string> users;
     while (query.executeStep()) users.push_back(query.getColumn(0).getString());
     return users;
@@ -151,8 +161,9 @@ Result<std::vector<LabelRecord>> Store::LabelsOf(const std::string& source) {
   return Try<std::vector<LabelRecord>>([&]() -> Result<std::vector<LabelRecord>> {
     SQLite::Statement query(
         *database_,
-        "SELECT body FROM (SELECT body, utime, origin, seq FROM labels WHERE source = ? "
-        "ORDER BY utime DESC, origin DESC, seq DESC LIMIT ?) ORDER BY utime, origin, seq");
+        "SELECT body FROM (SELECT body, hybrid_utime, origin, seq FROM labels WHERE source = ? "
+        "ORDER BY hybrid_utime DESC, origin DESC, seq DESC LIMIT ?) "
+        "ORDER BY hybrid_utime, origin, seq");
     query.bind(1, source);
     query.bind(2, kMostLabels);
     return ReadAll(query, LabelFromBody, path_ + ": a label");
@@ -161,9 +172,16 @@ Result<std::vector<LabelRecord>> Store::LabelsOf(const std::string& source) {
 
 Result<std::optional<SessionRecord>> Store::FindSession(const std::string& session_id) {
   return Try<std::optional<SessionRecord>>([&]() -> Result<std::optional<SessionRecord>> {
-    SQLite::Statement query(*database_, "SELECT body FROM rows WHERE uid = ?");
+    SQLite::Statement query(*database_,
+                            "SELECT body, kind FROM rows WHERE uid = ? "
+                            "ORDER BY kind <> 'session', hybrid_utime, origin, seq LIMIT 1");
     query.bind(1, "session/" + session_id);
     if (!query.executeStep()) return std::optional<SessionRecord>();
+    if (query.getColumn(1).getString() == kErased) {
+      SessionRecord forgotten;
+      forgotten.session_id = session_id;
+      return std::optional(forgotten);
+    }
     auto session = SessionFromBody(query.getColumn(0).getString());
     if (!session) return Error{path_ + ": a session cannot be read: " + session.error().message};
     return std::optional(*std::move(session));
@@ -172,9 +190,9 @@ Result<std::optional<SessionRecord>> Store::FindSession(const std::string& sessi
 
 Result<std::vector<msg::Task>> Store::OpenTasks() {
   return Try<std::vector<msg::Task>>([&]() -> Result<std::vector<msg::Task>> {
-    SQLite::Statement query(
-        *database_,
-        "SELECT encoded FROM tasks WHERE task_id NOT IN (SELECT task_id FROM task_states)");
+    SQLite::Statement query(*database_,
+                            "SELECT encoded FROM tasks WHERE encoded <> x'' "
+                            "AND task_id NOT IN (SELECT task_id FROM task_states)");
     std::vector<msg::Task> tasks;
     while (query.executeStep()) {
       const SQLite::Column blob = query.getColumn(0);
@@ -202,14 +220,27 @@ Result<int64_t> Store::RowCount() {
 
 Result<std::vector<HistoryRow>> Store::Rows() {
   return Try<std::vector<HistoryRow>>([&]() -> Result<std::vector<HistoryRow>> {
-    SQLite::Statement query(*database_,
-                            "SELECT origin, seq, kind, body FROM rows ORDER BY origin, seq");
+    SQLite::Statement query(
+        *database_, "SELECT origin, seq, kind, body, hybrid_utime FROM rows ORDER BY origin, seq");
     std::vector<HistoryRow> rows;
-    while (query.executeStep()) {
-      rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt64(),
-                      query.getColumn(2).getString(), query.getColumn(3).getString()});
-    }
+    while (query.executeStep()) rows.push_back(RowFrom(query));
     return rows;
+  });
+}
+
+Result<std::vector<OriginSummary>> Store::Origins() {
+  return Try<std::vector<OriginSummary>>([&]() -> Result<std::vector<OriginSummary>> {
+    SQLite::Statement query(
+        *database_,
+        "SELECT origin, COUNT(*), (SELECT COUNT(*) FROM sessions s WHERE s.origin = rows.origin), "
+        "SUM(kind = 'erased'), MAX(hybrid_utime) FROM rows GROUP BY origin ORDER BY origin");
+    std::vector<OriginSummary> origins;
+    while (query.executeStep()) {
+      origins.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt64(),
+                         query.getColumn(2).getInt64(), query.getColumn(3).getInt64(),
+                         query.getColumn(4).getInt64()});
+    }
+    return origins;
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +77,14 @@ Eigen::Vector3d ToVector(const json& v) {
   return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
 }
 
+uint64_t HashFrom(const std::string& text, const json& root) {
+  uint64_t hash = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+  if (text.size() != 16 || error != std::errc() || end != text.data() + text.size())
+    throw json::other_error::create(501, "'hash' must be 16 hexadecimal digits", &root);
+  return hash;
+}
+
 /// Parses and extracts; json's exceptions become an Error.
 template <typename T, typename Extract>
 Result<T> Parse(const std::string& body, Extract extract) {
@@ -86,6 +95,32 @@ Result<T> Parse(const std::string& body, Extract extract) {
   } catch (const json::exception& e) {
     return Error{e.what()};
   }
+}
+
+Result<RowHead> NamesOf(const HistoryRow& row) {
+  if (row.kind == "session") {
+    const auto session = SessionFromBody(row.body);
+    if (!session) return session.error();
+    return RowHead{"session/" + session->session_id, session->user, session->utime};
+  }
+  if (row.kind == "label") {
+    const auto label = LabelFromBody(row.body);
+    if (!label) return label.error();
+    return RowHead{"label/" + label->id, label->user, label->utime};
+  }
+  return Parse<RowHead>(row.body, [&](const json& root) {
+    const std::string name = row.kind + "/" + row.origin + "/" + std::to_string(row.seq);
+    RowHead head{root.value("uid", name), root.value("user", std::string()),
+                 root.contains("utime") ? NeedInteger(root, "utime", 0, kMostUtime) : Utime{0}};
+    if (row.kind != kErased && !head.uid.starts_with(row.kind + "/"))
+      throw json::other_error::create(501, "'uid' must begin with the kind", &root);
+    if (row.kind == kErased) {
+      if (row.hybrid_utime == 0)
+        throw json::other_error::create(501, "an erased row needs its hybrid time", &root);
+      head.hash = HashFrom(root.at("hash").get<std::string>(), root);
+    }
+    return head;
+  });
 }
 
 }  // namespace
@@ -172,22 +207,21 @@ Result<LabelRecord> LabelFromBody(const std::string& body) {
   });
 }
 
-Result<RowHead> HeadOf(const std::string& origin, int64_t seq, const std::string& kind,
-                       const std::string& body) {
-  if (kind == "session") {
-    const auto session = SessionFromBody(body);
-    if (!session) return session.error();
-    return RowHead{"session/" + session->session_id, session->user, session->utime};
-  }
-  if (kind == "label") {
-    const auto label = LabelFromBody(body);
-    if (!label) return label.error();
-    return RowHead{"label/" + label->id, label->user, label->utime};
-  }
-  return Parse<RowHead>(body, [&](const json& root) {
-    return RowHead{kind + "/" + origin + "/" + std::to_string(seq),
-                   root.value("user", std::string()), root.value("utime", Utime{0})};
-  });
+Result<RowHead> HeadOf(const HistoryRow& row) {
+  Result<RowHead> head = NamesOf(row);
+  if (head && row.kind != kErased) head->hash = RowHash(Timed(row, *head));
+  return head;
+}
+
+std::string WithUid(const std::string& body, const std::string& uid) {
+  ordered_json root = ordered_json::parse(body);
+  if (!root.contains("uid")) root["uid"] = uid;
+  return root.dump();
+}
+
+HistoryRow Timed(HistoryRow row, const RowHead& head) {
+  if (row.hybrid_utime == 0) row.hybrid_utime = std::max<Utime>(head.utime, 1);
+  return row;
 }
 
 }  // namespace beckon::intention

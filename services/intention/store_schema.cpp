@@ -9,7 +9,7 @@ namespace beckon::intention {
 namespace {
 
 /// Each entry leads from version i to i + 1. Never edit an entry that was released: add one.
-constexpr std::array<const char*, kSchemaVersion> kSteps = {
+const std::array<const char*, kSchemaVersion> kSteps = {
     // 1: the append-only history, as it is shared between machines; and this machine's tasks.
     R"sql(
       CREATE TABLE rows (
@@ -120,7 +120,8 @@ constexpr std::array<const char*, kSchemaVersion> kSteps = {
         BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
       CREATE TRIGGER stops_are_never_deleted BEFORE DELETE ON stops
         BEGIN SELECT RAISE(ABORT, 'stops are append-only'); END;
-    )sql"};
+    )sql",
+    kSchemaStep4};
 
 int PragmaValue(SQLite::Database& database, const char* pragma) {
   return database.execAndGet(std::string("PRAGMA ") + pragma).getInt();
@@ -169,18 +170,26 @@ Status CheckVersion(SQLite::Database& database, const std::string& path) {
   return {};
 }
 
+/// One step, in a transaction: another process may be doing the same. False: there is none left.
+static bool MigrateOnce(SQLite::Database& database) {
+  SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
+  const int version = PragmaValue(database, "user_version");
+  if (version >= kSchemaVersion) return false;
+  database.exec(kSteps[static_cast<size_t>(version)]);
+  database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+  database.exec("PRAGMA user_version = " + std::to_string(version + 1));
+  step.commit();
+  return true;
+}
+
 Status Migrate(SQLite::Database& database, const std::string& path) {
   if (Status known = CheckVersion(database, path); !known) return known;
-  for (;;) {
-    // In the transaction: another process may be doing the same.
-    SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
-    const int version = PragmaValue(database, "user_version");
-    if (version >= kSchemaVersion) return {};
-    database.exec(kSteps[static_cast<size_t>(version)]);
-    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
-    database.exec("PRAGMA user_version = " + std::to_string(version + 1));
-    step.commit();
-  }
+  AddFunctions(database);
+  bool changed = false;
+  while (MigrateOnce(database)) changed = true;
+  // What a step erased does not stay in the log.
+  if (changed) database.tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+  return {};
 }
 
 }  // namespace beckon::intention

@@ -101,8 +101,7 @@ void Dialogue::OnSession(const msg::Session& event) {
 
 bool Dialogue::IsBystander(const msg::Session& idle) const {
   if (leader_.empty() || idle.seal.sender == leader_ || !idle.user.empty()) return false;
-  const bool resuming =
-      control_ && control_->message.kind == msg::SessionKind::kRequestResume;
+  const bool resuming = control_ && control_->message.kind == msg::SessionKind::kRequestResume;
   return !resuming && !(phase_ == Phase::kRequesting && cancelled_);
 }
 

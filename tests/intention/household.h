@@ -1,5 +1,5 @@
-// Intention services of several machines, front ends of one user and a robot on an unreliable network.
-// Each service has a table, a disk, a clock and object ids of its own.
+// Intention services of several machines, front ends of one user and a robot on an unreliable
+// network. Each service has a table, a disk, a clock and object ids of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,7 +52,6 @@ class Household {
     std::string device;
     bool asks = true;     // for sessions
     bool answers = true;  // questions
-    bool presses_yes = false;  // whatever is asked
     std::string session_id;
     msg::Query query;
     int64_t answered = 0;  // query
@@ -117,7 +116,9 @@ class Household {
     }
     return condition();
   }
-  void Run(Utime duration) { RunUntil([] { return false; }, duration); }
+  void Run(Utime duration) {
+    RunUntil([] { return false; }, duration);
+  }
 
   void Step() {
     net.Step();
@@ -135,17 +136,15 @@ class Household {
     request.session_id = session_id;
     request.device = front_ends_[front_end].device;
     net.Send(EndpointOf(front_end), [this, request](size_t to) {
-      if (to < machines_.size())
-        Feed(to, &LedConversation::OnSession, request);
+      if (to < machines_.size()) Feed(to, &LedConversation::OnSession, request);
     });
   }
 
   template <typename Message>
   std::vector<Said> All() const {
     std::vector<Said> all;
-    std::ranges::copy_if(said, std::back_inserter(all), [](const Said& one) {
-      return std::holds_alternative<Message>(one.what);
-    });
+    std::ranges::copy_if(said, std::back_inserter(all),
+                         [](const Said& one) { return std::holds_alternative<Message>(one.what); });
     return all;
   }
   /// Of a machine since a moment.
@@ -157,9 +156,9 @@ class Household {
 
   UnreliableNetwork net;
   std::vector<Said> said;
-  std::map<std::string, msg::Task> done;  // by the robot, each once
+  std::map<std::string, msg::Task> done;               // by the robot, each once
   std::set<std::pair<size_t, std::string>> recovered;  // tasks found on disk by a machine
-  int confirmed = 0;                      // sessions, as the first front end knows them
+  int confirmed = 0;  // sessions, as the first front end knows them
 
  private:
   void Live(size_t i) {
@@ -216,7 +215,7 @@ class Household {
     answer.query_id = query.id;
     answer.session_id = query.session_id;
     answer.device = front_end.device;
-    const bool yes = front_end.presses_yes || IsWanted(query);
+    const bool yes = IsWanted(query);
     answer.likelihoods = {yes ? 1.0 : 0.0, yes ? 0.0 : 1.0};
     front_end.answered = query.id;
     net.Send(endpoint, [this, answer](size_t to) {

@@ -44,9 +44,7 @@ class Simulation {
   };
 
   Utime ClockOf(size_t i) const { return net_.now() + nodes_[i].offset; }
-  bool Holds(size_t i) const {
-    return net_.Awake(i) && nodes_[i].leases->Holds(kUser, ClockOf(i));
-  }
+  bool Holds(size_t i) const { return net_.Awake(i) && nodes_[i].leases->Holds(kUser, ClockOf(i)); }
 
   void Begin(size_t i) {
     Node& node = nodes_[i];
@@ -64,7 +62,8 @@ class Simulation {
           net_.Send(i, [this, lease = *lease](size_t to) { Deliver(lease, to); });
         } else if (std::holds_alternative<LeaseWon>(one)) {
           ++changes_;
-          node.session_ends = net_.now() + kSecond / 2 + static_cast<Utime>(net_.Below(8 * kSecond));
+          node.session_ends =
+              net_.now() + kSecond / 2 + static_cast<Utime>(net_.Below(8 * kSecond));
         } else if (const auto* orphan = std::get_if<LeaseOrphaned>(&one)) {
           node.leases->Claim(kUser, orphan->session_id, net_.Below(2) == 0, ClockOf(i));
         }
@@ -175,8 +174,8 @@ class Simulation {
     if (resumes) disturbed_ = net_.now();
     if (IsServed()) served_ = net_.now();
     const Utime most = kLease.duration + 2 * kLease.claim_window + kStartPeriod +
-                       Lost(kStartPeriod) + 2 * kLease.repeat +
-                       4 * UnreliableNetwork::kMostDelay + 4 * kTick;
+                       Lost(kStartPeriod) + 2 * kLease.repeat + 4 * UnreliableNetwork::kMostDelay +
+                       4 * kTick;
     EXPECT_LE(net_.now() - std::max(served_, disturbed_), most) << "nobody leads";
   }
 

@@ -1,5 +1,5 @@
-// Whole conversations of a user with two to four services that are killed, stand still, and lose sight
-// of each other.
+// Whole conversations of a user with two to four services that are killed, stand still, and lose
+// sight of each other.
 #include <set>
 
 #include "tests/intention/household.h"
@@ -85,8 +85,8 @@ class Life {
     EXPECT_EQ(task.object.category, Household::kCategory);
     EXPECT_EQ(task.object.instance, Household::kInstance);
     const auto& memory = home_.machine(said.machine).memory;
-    const auto on_disk = std::ranges::count(memory.sessions, task.task_id,
-                                            &SessionRecord::session_id);
+    const auto on_disk =
+        std::ranges::count(memory.sessions, task.task_id, &SessionRecord::session_id);
     EXPECT_EQ(on_disk, 1) << "published where it is not on disk";
     // What is repeated was promised before; the first time it takes the lease, or an earlier run.
     const std::pair<size_t, std::string> promise{said.machine, task.task_id};

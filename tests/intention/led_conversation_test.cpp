@@ -1,5 +1,5 @@
-// Conversations that two services share: one of them speaks, the other follows, and goes on where it
-// falls silent.
+// Conversations that two services share: one of them speaks, the other follows, and goes on where
+// it falls silent.
 #include "services/intention/core/led_conversation.h"
 
 #include "tests/intention/household.h"
@@ -198,11 +198,10 @@ TEST_F(LedConversationTest, StopStopsAllAndAlsoOneThatMissedIt) {
   const Utime stopped = home_.net.now();
   home_.Run(10 * kSecond);
   for (const size_t i : {leader_, other_}) {
-    EXPECT_EQ(home_.Count(i, stopped,
-                          [](const auto& what) {
-                            return IsWord(what) && !IsKind(what, Kind::kStopped);
-                          }),
-              0);
+    EXPECT_EQ(
+        home_.Count(i, stopped,
+                    [](const auto& what) { return IsWord(what) && !IsKind(what, Kind::kStopped); }),
+        0);
   }
   home_.Request(1, Kind::kRequestResume, "");
   home_.Run(5 * kSecond);

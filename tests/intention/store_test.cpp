@@ -15,54 +15,11 @@
 #include <sstream>
 
 #include "services/intention/store_schema.h"
+#include "tests/intention/store_records.h"
 #include "tests/intention/temporary_folder.h"
 
 namespace beckon::intention {
 namespace {
-
-SessionRecord Session(const std::string& id, const std::string& user = "ann", Utime utime = 1000) {
-  SessionRecord session;
-  session.session_id = id;
-  session.user = user;
-  session.device = "switch";
-  session.utime = utime;
-  session.category = "Carton";
-  session.action = "Open";
-  session.questions = 2;
-  session.posterior = 1;
-  session.present = {{"Carton", 1}, {"Mug", 2}};
-  session.answers = {{QuestionKind::kAction, {0, 1}, 1, "switch", AnswerFate::kWithdrawn},
-                     {QuestionKind::kFull, {1, 0}, 0, "speech"}};
-  return session;
-}
-
-LabelRecord Label(const std::string& id, Utime utime = 1000) {
-  LabelRecord label;
-  label.id = id;
-  label.session_id = "s1";
-  label.user = "ann";
-  label.utime = utime;
-  label.category = "Tin";
-  label.source = "camera";
-  label.centroid_W = {0.1, 0.25, 0.05};
-  label.extent_W = {0.05, 0.05, 0.125};
-  label.probabilities = {{"Can", 0.5f}, {"Tin", 0.25f}};
-  return label;
-}
-
-msg::Task TaskOf(const SessionRecord& session) {
-  msg::Task task;
-  task.utime = session.utime;
-  task.task_id = session.session_id;
-  task.user = session.user;
-  task.action = session.action;
-  task.object = {3, session.category, 1};
-  task.pose.object_id = 3;
-  task.posterior = 1;
-  task.questions = session.questions;
-  task.expires_utime = session.utime + 30 * kSecond;
-  return task;
-}
 
 class StoreTest : public testing::Test {
  protected:
@@ -121,8 +78,8 @@ TEST_F(StoreTest, NamesItsUsersTheLatestFirst) {
   const auto store = Open();
   Commit(*store, Session("s1", "ann", 1000));
   Commit(*store, Session("s2", "bob", 2000));
-  Commit(*store, Session("s3", "ann", 3000));
   Commit(*store, Session("s4", "cy", 2500));
+  Commit(*store, Session("s3", "ann", 3000));
   const auto users = store->Users();
   ASSERT_TRUE(users.ok());
   EXPECT_EQ(*users, (std::vector<std::string>{"ann", "cy", "bob"}));
@@ -241,7 +198,7 @@ TEST_F(StoreTest, EveryTableIsAppendOnly) {
     EXPECT_THROW(raw.exec("DELETE FROM " + name), SQLite::Exception);
     EXPECT_THROW(raw.exec("UPDATE " + name + " SET rowid = rowid"), SQLite::Exception);
   }
-  EXPECT_EQ(found, 4);
+  EXPECT_EQ(found, 5);
 }
 
 TEST_F(StoreTest, CountsAreViews) {

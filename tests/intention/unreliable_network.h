@@ -1,5 +1,5 @@
-// Endpoints that hear each other by multicast: messages are lost, doubled and late, the network falls
-// apart and heals, endpoints are killed and stand still. Time is counted here.
+// Endpoints that hear each other by multicast: messages are lost, doubled and late, the network
+// falls apart and heals, endpoints are killed and stand still. Time is counted here.
 #pragma once
 
 #include <functional>

@@ -123,6 +123,27 @@ TEST(Codec, ScenePointsKeepATenthOfAMillimetre) {
   }
 }
 
+// A row that was damaged, or that no store would take, is left out; the good ones arrive.
+TEST(Codec, ADamagedRowSpoilsNoGoodOne) {
+  msg::History history = msg::ExampleHistory();
+  history.rows = {{"kitchen", 1, 5, "note", "{\"first\":1}"},
+                  {"kitchen", 2, 5, "note", "{\"second\":2}"},
+                  {"kitchen", 3, 5, "note", "{\"third\":3}"}};
+  Bytes bytes = *Codec<msg::History>::Encode(history);
+  const std::string second = "second";
+  const auto at = std::search(bytes.begin(), bytes.end(), second.begin(), second.end());
+  ASSERT_NE(at, bytes.end());
+  *at ^= 1;
+  const auto decoded = Codec<msg::History>::Decode(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.error().message;
+  ASSERT_EQ(decoded->rows.size(), 2u);
+  EXPECT_EQ(decoded->rows[0].seq, 1);
+  EXPECT_EQ(decoded->rows[1].seq, 3);
+  EXPECT_EQ(decoded->refused_rows, 1);
+  *at = 0x1b;  // would steer a terminal
+  EXPECT_EQ(Codec<msg::History>::Decode(bytes)->refused_rows, 1);
+}
+
 TEST(Codec, AControlMessageFitsADatagram) {
   msg::History history = msg::ExampleHistory();
   history.rows.assign(100, history.rows[0]);

@@ -46,8 +46,9 @@ class Person final : public ui_bridge::DialogueOutput {
          const Clock& steady)
       : bus_(bus),
         loop_(loop),
-        dialogue_({.user = kUser, .device = device, .listen_us = kSecond / 2}, clock, steady,
-                  [device, n = 0]() mutable { return device + "-" + std::to_string(++n); }, *this) {
+        dialogue_(
+            {.user = kUser, .device = device, .listen_us = kSecond / 2}, clock, steady,
+            [device, n = 0]() mutable { return device + "-" + std::to_string(++n); }, *this) {
     bus_.Subscribe<msg::Query>([this](const msg::Query& query) { dialogue_.OnQuery(query); });
     bus_.Subscribe<msg::Session>([this](const msg::Session& event) { dialogue_.OnSession(event); });
     tick_ = loop_.Every(kSecond / 20, [this] { dialogue_.Tick(); });
@@ -118,8 +119,8 @@ class MachinesTest : public ::testing::Test {
     tool::ProcessSpec spec;
     spec.name = name;
     spec.program = BECKON_BIN_DIR "/beckon-intention";
-    spec.args = {"--db",      folder_->path() + "/" + name + ".db", "--machine", name,
-                 "--lcm-url", g_lcm_url};
+    spec.args = {"--db",   folder_->path() + "/" + name + ".db", "--machine", name, "--lcm-url",
+                 g_lcm_url};
     spec.log_file = folder_->path() + "/" + name + ".log";
     auto started = tool::ChildProcess::Start(spec);
     ASSERT_TRUE(started) << started.error().message;
@@ -167,8 +168,7 @@ class MachinesTest : public ::testing::Test {
   int64_t Counter(const std::string& machine, const std::string& name) const {
     const auto status = statuses_.find(machines_.at(machine).pid());
     if (status == statuses_.end()) return -1;
-    const auto found =
-        std::ranges::find(status->second.counters, name, &msg::Counter::name);
+    const auto found = std::ranges::find(status->second.counters, name, &msg::Counter::name);
     return found == status->second.counters.end() ? -1 : found->value;
   }
   void BeginDialogue(size_t questions) {

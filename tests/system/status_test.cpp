@@ -19,7 +19,7 @@ TEST(StatusOfAllServices, IsShownByTop) {
   system.StartUser();
   ASSERT_TRUE(system.RunUntil([&] { return !system.sessions().empty(); })) << system.Logs();
   const auto output =
-      RunProgram(BECKON_BIN_DIR "/beckon", {"top", "--json", "--lcm-url", LcmUrl()});
+      RunProgram(BECKON_BIN_DIR "/beckon", {"top", "--json", "--wait", "8", "--lcm-url", LcmUrl()});
   ASSERT_EQ(output.code, 0) << output.text;
   const auto table = nlohmann::json::parse(output.text);
   std::map<std::string, nlohmann::json> rows;

@@ -68,7 +68,8 @@ TEST_F(TopTest, TellsRatesAndRefusals) {
     stranger.publish("BECKON_STIMULUS", "garbage", 7);
     return refused();
   })) << system.Logs();
-  const auto output = Top({"--json"});
+  // Two STATUSes of each, on a busy machine too.
+  const auto output = Top({"--json", "--wait", "8"});
   ASSERT_EQ(output.code, 0) << output.text;
   std::set<std::string> services;
   const auto table = nlohmann::json::parse(output.text);

@@ -66,7 +66,8 @@ void FillDrops(const Between& between, TopRow& row) {
 }
 
 void FillAge(const Between& between, TopRow& row) {
-  row.age_us = Value(between.now(), "wait_us");
+  const auto wait_us = Value(between.now(), "wait_us");
+  if (wait_us.value_or(0) > 0) row.age_us = wait_us;  // else it heard nothing
   for (const auto& [name, value] : between.now()) {
     if (name.starts_with("age_us.")) row.age_us = std::max(row.age_us.value_or(0), value);
   }

@@ -40,9 +40,8 @@ void Conversation::NoteEnd(const msg::Session& event) {
 }
 
 std::optional<std::string> Conversation::UserOf(const std::string& session_id) const {
-  const auto talk = std::ranges::find_if(talks_, [&](const auto& entry) {
-    return entry.second->session_id == session_id;
-  });
+  const auto talk = std::ranges::find_if(
+      talks_, [&](const auto& entry) { return entry.second->session_id == session_id; });
   if (talk == talks_.end()) return {};
   return talk->first;
 }

@@ -7,7 +7,8 @@ namespace beckon::intention {
 namespace {
 
 constexpr size_t kMostUsers = 256;
-/// A claim's rank is the lowest digit of its term: who deserves the lease more claims a higher term.
+/// A claim's rank is the lowest digit of its term: who deserves the lease more claims a higher
+/// term.
 constexpr int64_t kRanks = 4;
 constexpr int64_t kRankLedLast = 2;
 constexpr int64_t kRankHasScene = 1;
@@ -29,8 +30,7 @@ bool Leases::IsMine(LeaseState state) const {
 }
 
 bool Leases::HasRivals(Utime now) const {
-  return now - peer_heard_ <= config_.peer_memory ||
-         now - listening_since_ < config_.peer_silence;
+  return now - peer_heard_ <= config_.peer_memory || now - listening_since_ < config_.peer_silence;
 }
 
 Leases::Entry* Leases::Make(const std::string& user) {
@@ -57,8 +57,8 @@ void Leases::Say(const std::string& user, const Entry& entry, Utime remaining) {
 
 void Leases::BeginClaim(const std::string& user, Entry& entry, bool has_scene, Utime wait,
                         Utime now) {
-  const int64_t rank = (entry.holder.machine == self_.machine ? kRankLedLast : 0) +
-                       (has_scene ? kRankHasScene : 0);
+  const int64_t rank =
+      (entry.holder.machine == self_.machine ? kRankLedLast : 0) + (has_scene ? kRankHasScene : 0);
   entry.term = (entry.term / kRanks + 1) * kRanks + rank;
   entry.holder = self_;
   entry.state = LeaseState::kClaiming;
@@ -103,8 +103,7 @@ void Leases::Tick(Utime now) {
     // What was sent meanwhile is read first: nothing is taken for silence, nor for consent.
     if (deaf && entry.state == LeaseState::kElsewhere)
       entry.until = std::max(entry.until, now + 2 * config_.repeat);
-    const bool waits =
-        entry.state == LeaseState::kClaiming || entry.state == LeaseState::kLapsed;
+    const bool waits = entry.state == LeaseState::kClaiming || entry.state == LeaseState::kLapsed;
     if (waits && gap > config_.claim_window) entry.until = now + config_.claim_window;
     TickOne(user, entry, now);
   }

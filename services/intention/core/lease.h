@@ -1,7 +1,8 @@
 // Which of several intention services leads the conversation with a user: a lease with a term per
-// user (after Gray and Cheriton's leases, 1989, and Raft's terms, Ongaro and Ousterhout 2014, without
-// a quorum: a user who is cut off with one machine is served by that one). Leases in with the time,
-// leases out; time is any clock of one's own that never goes back, durations alone cross the bus.
+// user (after Gray and Cheriton's leases, 1989, and Raft's terms, Ongaro and Ousterhout 2014,
+// without a quorum: a user who is cut off with one machine is served by that one). Leases in with
+// the time, leases out; time is any clock of one's own that never goes back, durations alone cross
+// the bus.
 #pragma once
 
 #include <map>

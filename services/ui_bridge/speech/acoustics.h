@@ -27,7 +27,8 @@ struct Acoustics {
   int frames = 0;
   /// The best sequence of phones, whatever it is.
   Alignment free;
-  /// Score of the best sequence of words that are no commands.
+  /// Scores of the best word that is no phrase of the grammar, and of the best sequence of such.
+  std::optional<double> other_word;
   std::optional<double> other_words;
   /// For each phrase of the grammar the best way to align it; nothing where it is too long.
   std::vector<std::optional<Alignment>> phrases;

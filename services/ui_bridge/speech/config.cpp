@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "services/ui_bridge/speech/dictionary.h"
 #include "services/ui_bridge/speech/grammar.h"
-#include "services/ui_bridge/speech/phone_decoder.h"
 
 namespace beckon::ui_bridge::speech {
 namespace {

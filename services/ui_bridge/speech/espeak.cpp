@@ -66,9 +66,10 @@ Result<Wave> SpeakToWave(const EspeakConfig& config, const std::string& text) {
   return ReadWave(*bytes);
 }
 
-Result<Pronunciation> PronounceByEspeak(const EspeakConfig& config, const std::string& word) {
+Result<Pronunciation> PronounceByEspeak(const EspeakConfig& config, const std::string& word,
+                                        const std::string& accent) {
   auto bytes = OutputOf(
-      {config.program, "-q", "-x", "--sep=_", "-v", "en-us", "--", Speakable(word)}, kTimeout_ms);
+      {config.program, "-q", "-x", "--sep=_", "-v", accent, "--", Speakable(word)}, kTimeout_ms);
   if (!bytes) return bytes.error();
   return FromEspeak(std::string(bytes->begin(), bytes->end()));
 }

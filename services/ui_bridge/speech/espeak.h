@@ -21,8 +21,9 @@ struct EspeakConfig {
 /// Blocks until the child has ended, some tens of milliseconds for a sentence; kills it after 10 s.
 Result<Wave> SpeakToWave(const EspeakConfig& config, const std::string& text);
 
-/// How espeak-ng would say a word.
-Result<Pronunciation> PronounceByEspeak(const EspeakConfig& config, const std::string& word);
+/// How espeak-ng's voice `accent` says a word, whatever the voice of `config` is.
+Result<Pronunciation> PronounceByEspeak(const EspeakConfig& config, const std::string& word,
+                                        const std::string& accent = "en-us");
 
 /// Standard output of a program that is given no input. The error names the program, and how it
 /// ended.

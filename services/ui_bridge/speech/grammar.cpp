@@ -20,15 +20,8 @@ void AddRivals(Grammar& grammar, const Lexicon& lexicon, const GrammarConfig& co
   const size_t n = grammar.phrases.size();
   for (size_t i = 0; i < n; ++i) {
     const Pronunciation sounds = grammar.phrases[i].sounds;
-    for (const auto& near : lexicon.Near(sounds, config.rivals_per_phrase)) add(near);
-  }
-  for (const auto& word : config.other_words) {
-    const auto said = lexicon.Say(word);
-    if (!said) continue;
-    for (const auto& sounds : *said) {
-      const bool phrase = std::ranges::any_of(
-          grammar.phrases, [&](const Phrase& p) { return p.command && p.sounds == sounds; });
-      if (!phrase) grammar.other_words.push_back(sounds);
+    for (const auto& near : lexicon.Near(sounds, config.rivals_per_phrase)) {
+      for (const auto& accent : InAccents(near)) add(accent);
     }
   }
 }
@@ -65,11 +58,13 @@ Result<Grammar> BuildGrammar(const std::vector<Command>& commands, const Lexicon
     for (const auto& phrase : commands[i].phrases) {
       auto ways = Pronounce(phrase, lexicon);
       if (!ways) return Error{std::string(Name(commands[i].kind)) + ": " + ways.error().message};
-      for (auto& sounds : *ways) {
-        auto other = WithoutR(sounds);
-        if (other != sounds) grammar.phrases.push_back({i, std::move(other)});
-        grammar.phrases.push_back({i, std::move(sounds)});
+      std::set<Pronunciation> sounds(ways->begin(), ways->end());
+      for (const auto& way : *ways) {
+        // What is written as phones is meant so.
+        if (IsPhones(phrase)) continue;
+        for (const auto& accent : InAccents(way)) sounds.insert(accent);
       }
+      for (const auto& way : sounds) grammar.phrases.push_back({i, way});
     }
   }
   if (grammar.phrases.empty()) return Error{"the grammar has no phrase"};

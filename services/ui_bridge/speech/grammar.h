@@ -19,14 +19,10 @@ struct Phrase {
 struct Grammar {
   std::vector<Command> commands;
   std::vector<Phrase> phrases;
-  std::vector<Pronunciation> other_words;  // that sentences may be made of, and no phrases
 };
 
 struct GrammarConfig {
   size_t rivals_per_phrase = 12;  // words of the dictionary that sound nearly like it
-  /// Said often, and no command.
-  std::vector<std::string> other_words = {"uh",   "um",    "hmm",  "oh",        "okay",
-                                          "well", "hello", "what", "don't stop"};
 };
 
 /// Words of the commands that the lexicon lacks.

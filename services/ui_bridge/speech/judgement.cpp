@@ -109,6 +109,7 @@ Features Measure(const Acoustics& acoustics, const Grammar& grammar, size_t phra
       BestScore(acoustics, grammar,
                 [&](const Phrase& other) { return other.command && other.command != command; }),
       frames);
+  features[kWord] = Margin(score, acoustics.other_word, frames);
   features[kSentence] = Margin(score, acoustics.other_words, frames);
   features[kHeardApart] = Distance(Sounds(acoustics.free), grammar.phrases[phrase].sounds) / n;
   features[kLength] = std::log(n);

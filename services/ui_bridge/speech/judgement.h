@@ -25,14 +25,15 @@ enum Feature : size_t {
   kPace,         // |log(frames of speech / (8 x phones))|
   kRival,        // against the best phrase that means nothing, within +-kMarginCap
   kOther,        // against the best phrase of another command, likewise
+  kWord,         // against the best other word of the dictionary, likewise
   kSentence,     // against the best sequence of other words, likewise
   kHeardApart,   // Distance between the free phones and the phrase, a phone
   kLength,       // log(phones)
   kFeatures
 };
 inline constexpr std::array<const char*, kFeatures> kFeatureNames = {
-    "whole", "worst_phone", "second_worst", "mean_phone", "squeezed",    "longest",
-    "pace",  "rival",       "other",        "sentence",   "heard_apart", "length"};
+    "whole", "worst_phone", "second_worst", "mean_phone", "squeezed",    "longest", "pace",
+    "rival", "other",       "word",         "sentence",   "heard_apart", "length"};
 inline constexpr double kMarginCap = 3;
 
 using Features = std::array<double, kFeatures>;

@@ -118,6 +118,27 @@ Pronunciation WithoutR(const Pronunciation& pronunciation) {
   return result;
 }
 
+Pronunciation WithRoundO(const Pronunciation& pronunciation) {
+  static const Phone aa = *PhoneFromName("AA");
+  static const Phone ao = *PhoneFromName("AO");
+  static const Phone r = *PhoneFromName("R");
+  Pronunciation result = pronunciation;
+  for (size_t i = 0; i < result.size(); ++i) {
+    const bool before_r = i + 1 < result.size() && result[i + 1] == r;
+    if (result[i] == aa && !before_r) result[i] = ao;
+  }
+  return result;
+}
+
+std::vector<Pronunciation> InAccents(const Pronunciation& pronunciation) {
+  std::vector<Pronunciation> accents{pronunciation};
+  // Round first: the "a" of "start" stays as it is where its "r" is silent.
+  for (auto& other : {WithoutR(pronunciation), WithoutR(WithRoundO(pronunciation))}) {
+    if (std::ranges::find(accents, other) == accents.end()) accents.push_back(other);
+  }
+  return accents;
+}
+
 std::string ToText(const Pronunciation& pronunciation) {
   std::string text;
   for (const Phone phone : pronunciation) {

@@ -35,6 +35,10 @@ Result<Pronunciation> ParsePronunciation(const std::string& text);
 Result<Pronunciation> FromEspeak(const std::string& mnemonics);
 /// As it is said where "r" is silent after vowels: "N AH M B ER" becomes "N AH M B AH".
 Pronunciation WithoutR(const Pronunciation& pronunciation);
+/// As it is said where the "o" of "stop" is round: "S T AA P" becomes "S T AO P".
+Pronunciation WithRoundO(const Pronunciation& pronunciation);
+/// All of them, and what was given: how it is said in one accent or another.
+std::vector<Pronunciation> InAccents(const Pronunciation& pronunciation);
 /// "S T AA P"
 std::string ToText(const Pronunciation& pronunciation);
 

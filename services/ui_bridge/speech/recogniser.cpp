@@ -1,5 +1,6 @@
 #include "services/ui_bridge/speech/recogniser.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <utility>
@@ -10,7 +11,10 @@
 namespace beckon::ui_bridge::speech {
 namespace {
 
-constexpr int kMargin = 2;  // frames around what is loud: soft beginnings and ends
+constexpr int kMargin = 2;        // frames around what is loud: soft beginnings and ends
+constexpr double kOftenSaid = 4;  // cost of a word, nats
+
+double Cost(const FrequentWord& word) { return 2 - 0.5 * word.log_probability; }
 
 }  // namespace
 
@@ -19,13 +23,26 @@ Result<std::unique_ptr<Recogniser>> Recogniser::Open(const RecogniserConfig& con
   if (!lexicon) return lexicon.error();
   auto decoder = PhoneDecoder::Open(config.model_folder);
   if (!decoder) return decoder.error();
-  auto frequent = FrequentWords(config.model_folder, *lexicon, config.frequent_words);
+  auto frequent = FrequentWords(config.model_folder, *lexicon);
   if (!frequent) return frequent.error();
-  RecogniserConfig extended = config;
-  auto& others = extended.grammar.other_words;
-  others.insert(others.end(), frequent->begin(), frequent->end());
+  std::vector<WordTree::Word> words;
+  const auto add = [&](const std::string& word, double cost) {
+    const auto said = lexicon->Say(word);
+    if (!said) return;
+    for (const auto& sounds : *said) {
+      for (const auto& accent : InAccents(sounds)) words.push_back({accent, cost});
+    }
+  };
+  for (const auto& word : config.other_words) add(word, kOftenSaid);
+  for (size_t i = 0; i < std::min(config.words_in_sentences, frequent->size()); ++i)
+    add((*frequent)[i].word, Cost((*frequent)[i]));
+  const auto in_sentences = words;
+  for (size_t i = config.words_in_sentences; i < std::min(config.words_alone, frequent->size());
+       ++i)
+    add((*frequent)[i].word, Cost((*frequent)[i]));
+  (*decoder)->SetOtherWords(words, in_sentences);
   return std::unique_ptr<Recogniser>(
-      new Recogniser(extended, *std::move(lexicon), *std::move(decoder)));
+      new Recogniser(config, *std::move(lexicon), *std::move(decoder)));
 }
 
 Status Recogniser::Expect(const std::vector<Command>& commands) {
@@ -41,7 +58,7 @@ Status Recogniser::Expect(const std::vector<Command>& commands) {
   if (!grammar) return grammar.error();
   std::vector<Pronunciation> phrases;
   for (const auto& phrase : grammar->phrases) phrases.push_back(phrase.sounds);
-  if (auto set = decoder_->SetPhrases(phrases, grammar->other_words); !set) return set;
+  decoder_->SetPhrases(phrases);
   grammar_ = *std::move(grammar);
   return {};
 }
@@ -54,8 +71,10 @@ void Recogniser::AddSpokenForms(const std::vector<Command>& commands) {
       std::istringstream words(phrase);
       for (std::string word; words >> word;) {
         if (!asked_espeak_.insert(word).second) continue;
-        if (const auto sounds = PronounceByEspeak(config_.espeak, word))
-          lexicon_.Add(word, *sounds);
+        for (const char* accent : {"en-us", "en-gb"}) {
+          if (const auto sounds = PronounceByEspeak(config_.espeak, word, accent))
+            lexicon_.Add(word, *sounds);
+        }
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/ui_bridge/speech/dictionary.h"
 #include "services/ui_bridge/speech/espeak.h"
 #include "services/ui_bridge/speech/grammar.h"
 #include "services/ui_bridge/speech/judgement.h"
@@ -18,7 +19,11 @@ namespace beckon::ui_bridge::speech {
 struct RecogniserConfig {
   std::string model_folder = kModelFolder;
   GrammarConfig grammar;
-  size_t frequent_words = 800;  // that are rivals, too
+  /// Rivals that are said often, and as many of the commonest words alone and in sentences.
+  std::vector<std::string> other_words = {"uh",   "um",    "hmm",  "oh",        "okay",
+                                          "well", "hello", "what", "don't stop"};
+  size_t words_alone = 20'000;
+  size_t words_in_sentences = 1'500;
   JudgementModel judgement;
   EspeakConfig espeak;  // for words that the dictionary lacks
 };

@@ -1,24 +1,17 @@
 // Whole conversations: an intention of this test's own asks, a mouth made of espeak-ng answers into
 // the microphone, which is a FIFO.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <deque>
-#include <filesystem>
-#include <random>
+#include <map>
 
 #include "services/base/run_loop.h"
 #include "services/ui_bridge/service.h"
-#include "services/ui_bridge/speech/espeak.h"
+#include "tests/ui_bridge/conformance/mouth.h"
 
 namespace beckon::ui_bridge {
 namespace {
-
-constexpr Utime kBeat_us = 50'000;
-constexpr size_t kBeatSamples = 800;
 
 std::unique_ptr<FrontEndFactory> SpeechFactory(const std::string& toml) {
   for (auto& factory : MakeFrontEndFactories()) {
@@ -34,39 +27,14 @@ std::unique_ptr<FrontEndFactory> SpeechFactory(const std::string& toml) {
 class SpokenTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("beckon_spoken_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-    const std::string fifo = folder_ / "mic";
-    ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-    microphone_ = open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    ASSERT_GE(microphone_, 0);
     loop_.AddFd(bus_->fd(), [this] { bus_->HandleReadable(); });
     loop_.After(110 * kSecond, [this] {
       ADD_FAILURE() << "not done after 110 s";
       loop_.Stop();
     });
-    loop_.Every(kBeat_us, [this] { Beat(); });
+    mouth_.Open(loop_);
     bus_->Subscribe<msg::Session>([this](const msg::Session& request) { OnSession(request); });
     bus_->Subscribe<msg::Answer>([this](const msg::Answer& answer) { OnAnswer(answer); });
-  }
-
-  void TearDown() override {
-    close(microphone_);
-    std::filesystem::remove_all(folder_);
-  }
-
-  /// The microphone hears the room, and what the mouth says.
-  void Beat() {
-    std::normal_distribution<double> room(0, 12);
-    std::vector<int16_t> beat(kBeatSamples);
-    for (auto& x : beat) {
-      x = static_cast<int16_t>(room(random_));
-      if (to_say_.empty()) continue;
-      x = static_cast<int16_t>(x + to_say_.front());
-      to_say_.pop_front();
-    }
-    [[maybe_unused]] const auto written = write(microphone_, beat.data(), 2 * beat.size());
   }
 
   /// Says it `after_us` from now, and in another voice again until `id` is answered:
@@ -81,12 +49,7 @@ class SpokenTest : public ::testing::Test {
   }
 
   void Say(const std::string& text, Utime after_us, const std::string& voice = "en-us") {
-    auto wave = speech::SpeakToWave({.voice = voice}, text);
-    ASSERT_TRUE(wave) << wave.error().message;
-    const auto samples = speech::AtSampleRate(*wave);
-    loop_.After(after_us, [this, samples] {
-      for (const int16_t x : samples) to_say_.push_back(static_cast<int16_t>(x / 2));
-    });
+    loop_.After(after_us, [this, text, voice] { mouth_.Say(text, voice); });
   }
 
   void Announce(msg::SessionKind kind, const std::string& text = "") {
@@ -136,7 +99,7 @@ class SpokenTest : public ::testing::Test {
   }
 
   void Run(const std::string& play) {
-    auto factory = SpeechFactory("[speech]\ninput = \"" + (folder_ / "mic").string() +
+    auto factory = SpeechFactory("[speech]\ninput = \"" + mouth_.path() +
                                  "\"\nask_again_s = 0\nplay = " + play + "\n");
     ASSERT_TRUE(factory);
     Service service({.user = "ann", .device = "", .exit_after_sessions = 1, .listen_us = 50'000},
@@ -151,10 +114,7 @@ class SpokenTest : public ::testing::Test {
   SteadyClock steady_;
   RunLoop loop_;
   std::unique_ptr<Bus> bus_ = std::move(*Bus::Open("memq://"));
-  std::filesystem::path folder_;
-  int microphone_ = -1;
-  std::mt19937_64 random_{1};
-  std::deque<int16_t> to_say_;
+  conformance::Mouth mouth_{"/tmp/beckon-spoken-" + std::to_string(getpid())};
   std::string session_;
   std::map<int64_t, std::vector<double>> answers_;
   std::vector<msg::SessionKind> requests_;

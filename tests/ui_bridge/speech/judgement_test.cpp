@@ -47,7 +47,7 @@ Acoustics Sound(const Grammar& grammar, const std::vector<double>& fits) {
   return acoustics;
 }
 
-const JudgementModel kModel{.bias = 3, .weights = {1, 0, 0, 0.5, 0, 0, 0, 1, 1, 0, -1, 0}};
+const JudgementModel kModel{.bias = 3, .weights = {1, 0, 0, 0.5, 0, 0, 0, 1, 1, 0, 0, -1, 0}};
 
 double Sum(const Heard& heard) {
   return std::accumulate(heard.commands.begin(), heard.commands.end(), heard.none);

@@ -94,6 +94,18 @@ TEST(Phones, AreSaidWithoutRToo) {
   EXPECT_EQ(WithoutR(Say("TH R IY")), Say("TH R IY"));
 }
 
+TEST(Phones, AreSaidWithARoundOToo) {
+  EXPECT_EQ(WithRoundO(Say("S T AA P")), Say("S T AO P"));
+  EXPECT_EQ(WithRoundO(Say("S T AA R T")), Say("S T AA R T"));
+  EXPECT_EQ(WithRoundO(Say("N OW")), Say("N OW"));
+}
+
+TEST(Phones, AreSaidInEachAccentOnce) {
+  EXPECT_THAT(InAccents(Say("N OW")), ElementsAre(Say("N OW")));
+  EXPECT_THAT(InAccents(Say("S T AA P")), ElementsAre(Say("S T AA P"), Say("S T AO P")));
+  EXPECT_THAT(InAccents(Say("S T AA R T")), ElementsAre(Say("S T AA R T"), Say("S T AA T")));
+}
+
 TEST(Phones, LieFurtherApartTheLessTheyAreAlike) {
   EXPECT_EQ(Distance(Say("S T AA P"), Say("S T AA P")), 0);
   EXPECT_DOUBLE_EQ(Distance(Say("S T AA P"), Say("S T AA K")), kAlike);
