@@ -8,8 +8,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tools/beckon/session_report.h"
-
 namespace beckon::faults {
 namespace {
 
