@@ -28,7 +28,7 @@ void Conversation::Withdraw(const std::string& user) {
     if (Status noted =
             memory_.NoteTask(task->first, msg::TaskState::kRevoked, task->second.task.utime);
         !noted)
-      Refuse("BECKON_LEASE", noted.error().message);
+      Refuse("BECKON_LEASE", refusal::kStorage, noted.error().message);
     tasks_.erase(task);
   }
   talks_.erase(talk);
