@@ -1,5 +1,5 @@
 # Short verbs for people. Each installs what it needs first (Debian packages, through apt).
-.PHONY: demo test build package model bench experiments format dependencies help
+.PHONY: demo test build package model bench experiments faults format dependencies help
 
 build_dir := build/release
 
@@ -11,6 +11,7 @@ help:
 	@echo "make model   the shipped model of categories, from its seed (five minutes)"
 	@echo "make bench   milliseconds per stage, as a table and JSON"
 	@echo "make experiments  how good questions, fits, segments and categories are, as docs/experiments (half an hour)"
+	@echo "make faults  kills, partitions, loss, forgeries, floods: the real services in a lab of hosts (hours; FAULT_FLAGS)"
 	@echo "make format  clang-format on every source file"
 
 dependencies:
@@ -41,6 +42,10 @@ bench: build
 experiments: build
 	deploy/install-deps python3-matplotlib python3-numpy python3-opencv python3-pil python3-scipy
 	tools/experiments/run $(EXPERIMENT_FLAGS)
+
+# FAULT_FLAGS="--quick", "--scale 0.01", "--only kills"; see tests/faults/run --help
+faults: build
+	tests/faults/run $(FAULT_FLAGS)
 
 format: dependencies
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

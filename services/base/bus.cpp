@@ -8,10 +8,12 @@
 
 namespace beckon {
 
-/// What one subscription hands to LCM; lives as long as the bus.
+/// What one channel's subscription hands to LCM; lives as long as the bus.
 struct Bus::Handler {
   Bus* bus;
   BytesHandler handle;
+  int queue;
+  lcm::Subscription* subscription = nullptr;
 
   // Called from LCM's C code: nothing may be thrown through it.
   void OnMessage(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -22,11 +24,9 @@ struct Bus::Handler {
     const Utime wait_us = SystemClock().Now() - buffer->recv_utime;
     traffic.wait_us_max = std::max(traffic.wait_us_max, wait_us);
     const Stopwatch stopwatch;
-    try {
+    bus->Guarded(channel, [&] {
       handle({static_cast<const uint8_t*>(buffer->data), buffer->data_size});
-    } catch (const std::exception& e) {
-      bus->Refuse(channel, refusal::kHandler, std::string("handler failed: ") + e.what());
-    }
+    });
     const auto handler_us = static_cast<Utime>(stopwatch.Milliseconds() * 1000);
     traffic.handler_us_max = std::max(traffic.handler_us_max, handler_us);
   }
@@ -95,9 +95,26 @@ Status Bus::PublishBytes(const char* channel, const std::vector<uint8_t>& bytes)
   return {};
 }
 
-void Bus::SubscribeBytes(const char* channel, int queue, BytesHandler handler) {
-  handlers_.push_back(std::make_unique<Handler>(Handler{this, std::move(handler)}));
-  lcm_->subscribe(channel, &Handler::OnMessage, handlers_.back().get())->setQueueCapacity(queue);
+void Bus::Guarded(const std::string& channel, const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::exception& e) {
+    Refuse(channel, refusal::kHandler, std::string("handler failed: ") + e.what());
+  }
+}
+
+void Bus::SubscribeBytes(const char* channel, int queue, BytesHandler handle) {
+  auto& handler = handlers_[channel];
+  handler = std::make_unique<Handler>(Handler{this, std::move(handle), queue});
+  handler->subscription = lcm_->subscribe(channel, &Handler::OnMessage, handler.get());
+  handler->subscription->setQueueCapacity(queue);
+}
+
+void Bus::Widen(const char* channel, int queue) {
+  Handler& handler = *handlers_.at(channel);
+  if (queue <= handler.queue) return;
+  handler.queue = queue;
+  handler.subscription->setQueueCapacity(queue);
 }
 
 }  // namespace beckon

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -54,23 +56,30 @@ class Bus {
   }
 
   /// Calls `handler` with each valid message of the type that is to be believed. `queue` messages
-  /// may wait; frames take 1, state and commands the default.
+  /// may wait; frames take 1, state and commands the default. Several handlers of one type are
+  /// called in the order of subscription, with what is checked and counted once; the longest of
+  /// their queues is everyone's.
   template <typename T>
   void Subscribe(std::function<void(T)> handler, int queue = 30) {
-    SubscribeBytes(
-        Codec<T>::kChannel, queue,
-        [this, handler = std::move(handler)](std::span<const uint8_t> bytes) {
-          auto message = Codec<T>::Decode(bytes);
-          if (!message)
-            return Refuse(Codec<T>::kChannel, refusal::kMalformed, message.error().message);
-          if constexpr (requires { message->seal; }) {
-            if (!Believe(Codec<T>::kChannel, message->seal, trust::DemandOf(*message), bytes))
-              return;
-          }
-          if constexpr (requires { message->seq; })
-            NoteStreamed(Codec<T>::kChannel, message->seq, message->utime);
-          handler(*std::move(message));
-        });
+    auto& known = listeners_[Codec<T>::kChannel];
+    const bool is_first = known == nullptr;
+    if (is_first) known = std::make_shared<Listeners<T>>();
+    auto listeners = std::static_pointer_cast<Listeners<T>>(known);
+    listeners->push_back(std::move(handler));
+    if (!is_first) return Widen(Codec<T>::kChannel, queue);
+    SubscribeBytes(Codec<T>::kChannel, queue, [this, listeners](std::span<const uint8_t> bytes) {
+      auto message = Codec<T>::Decode(bytes);
+      if (!message) return Refuse(Codec<T>::kChannel, refusal::kMalformed, message.error().message);
+      if constexpr (requires { message->seal; }) {
+        if (!Believe(Codec<T>::kChannel, message->seal, trust::DemandOf(*message), bytes)) return;
+      }
+      if constexpr (requires { message->seq; })
+        NoteStreamed(Codec<T>::kChannel, message->seq, message->utime);
+      const size_t last = listeners->size() - 1;  // handlers may add to them
+      for (size_t i = 0; i < last; ++i)
+        Guarded(Codec<T>::kChannel, [&] { (*listeners)[i](*message); });
+      Guarded(Codec<T>::kChannel, [&] { (*listeners)[last](*std::move(message)); });
+    });
   }
 
   /// Counts and logs something refused; services use it for messages that are well formed but wrong
@@ -91,6 +100,9 @@ class Bus {
  private:
   using BytesHandler = std::function<void(std::span<const uint8_t>)>;
   struct Handler;
+  /// A deque, so that a handler which adds another one stays where it is.
+  template <typename T>
+  using Listeners = std::deque<std::function<void(T)>>;
 
   Bus(std::unique_ptr<lcm::LCM> lcm, std::unique_ptr<trust::Guard> guard);
   void Stamp(msg::Seal& seal, bool may_last);
@@ -98,12 +110,16 @@ class Bus {
                std::span<const uint8_t> bytes);
   Status PublishBytes(const char* channel, const std::vector<uint8_t>& bytes);
   void SubscribeBytes(const char* channel, int queue, BytesHandler handler);
+  void Widen(const char* channel, int queue);
+  /// Calls a handler; what it throws is refused.
+  void Guarded(const std::string& channel, const std::function<void()>& call);
   void NoteStreamed(const char* channel, int64_t seq, Utime stamp);
 
   std::unique_ptr<lcm::LCM> lcm_;
-  std::unique_ptr<trust::Guard> guard_;  // null: messages are not signed
-  int64_t counter_ = 0;                  // of seals, where they are not
-  std::vector<std::unique_ptr<Handler>> handlers_;
+  std::unique_ptr<trust::Guard> guard_;                       // null: messages are not signed
+  int64_t counter_ = 0;                                       // of seals, where they are not
+  std::map<std::string, std::unique_ptr<Handler>> handlers_;  // by channel
+  std::map<std::string, std::shared_ptr<void>> listeners_;    // Listeners of the channel's type
   int64_t received_ = 0;
   int64_t refused_ = 0;
   BusTraffic traffic_;

@@ -111,6 +111,36 @@ TEST(Bus, ASignedOneBelievesItselfAndNobodyUnsigned) {
   EXPECT_EQ(bus->refused(), 0);
 }
 
+TEST(Bus, ASignedOneServesSeveralHandlersOfAType) {
+  const trust::TemporaryKeys keys("kitchen");
+  const SystemClock clock;
+  const SteadyClock steady;
+  auto bus = *Bus::Open("memq://", std::make_unique<trust::Guard>(
+                                       keys.folder(), **keys.folder().Own(), "", clock, steady));
+  std::vector<std::string> heard;
+  for (const char* name : {"first", "second"}) {
+    bus->Subscribe<msg::TaskStatus>(
+        [&heard, name](const msg::TaskStatus& status) { heard.push_back(name + status.text); });
+  }
+  ASSERT_TRUE(bus->Publish(Example()));
+  HandleOne(*bus);
+  EXPECT_THAT(heard, ::testing::ElementsAre("firstdone", "seconddone"));
+  EXPECT_EQ(bus->refused(), 0);
+  EXPECT_EQ(bus->received(), 1);
+}
+
+TEST(Bus, AHandlerThatThrowsDoesNotKeepAMessageFromTheNext) {
+  auto bus = *Bus::Open("memq://");
+  int heard = 0;
+  bus->Subscribe<msg::TaskStatus>(
+      [](const msg::TaskStatus&) { throw std::runtime_error("broken"); });
+  bus->Subscribe<msg::TaskStatus>([&](const msg::TaskStatus&) { ++heard; });
+  ASSERT_TRUE(bus->Publish(Example()));
+  HandleOne(*bus);
+  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(bus->traffic().at("BECKON_TASK_STATUS").refused.at("handler"), 1);
+}
+
 TEST(Bus, CountersOfSealsGrowWithoutKeysToo) {
   auto bus = *Bus::Open("memq://");
   std::vector<int64_t> counters;
