@@ -22,12 +22,6 @@ trust::Roles Of(Role role) {
 
 }  // namespace
 
-void Verdict::Breach(const std::string& what) {
-  if (holds) found = what;
-  holds = false;
-  details["breaches"].push_back(what);
-}
-
 std::vector<HostSpec> SeparateHosts() {
   return {{"camera", Of(Role::kPerception)},
           {"hub", Of(Role::kIntention)},
