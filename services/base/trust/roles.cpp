@@ -59,7 +59,12 @@ Demand DemandOf(const msg::Profile&) { return Of({Role::kIntention}); }
 Demand DemandOf(const msg::Highlight&) { return Of({Role::kFrontEnd}); }
 Demand DemandOf(const msg::Stimulus&) { return Of({Role::kFrontEnd}); }
 Demand DemandOf(const msg::Decoding&) { return Of({Role::kDecoder}); }
-Demand DemandOf(const msg::History&) { return Lasting(Of({Role::kIntention})); }
+Demand DemandOf(const msg::History&) {
+  // A copied disk has the same key and the same sender, and its counters may lag behind.
+  Demand demand = Lasting(Of({Role::kIntention}));
+  demand.may_repeat = true;
+  return demand;
+}
 Demand DemandOf(const msg::Lease&) { return Lasting(Of({Role::kIntention})); }
 
 Demand DemandOf(const msg::Session& session) {
