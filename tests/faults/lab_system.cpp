@@ -122,7 +122,7 @@ int LabSystem::WrongTasks() const {
          static_cast<int>(std::ranges::count_if(tasks_, [this](const auto& entry) {
            const auto& [id, task] = entry;
            return task.action != kAction || task.object.category != kCategory ||
-                  !requested_.contains(id);
+                  (hears_all_requests_ && !requested_.contains(id));
          }));
 }
 
