@@ -22,12 +22,6 @@ trust::Roles Of(Role role) {
 
 }  // namespace
 
-void Verdict::Breach(const std::string& what) {
-  if (holds) found = what;
-  holds = false;
-  details["breaches"].push_back(what);
-}
-
 std::vector<HostSpec> SeparateHosts() {
   return {{"camera", Of(Role::kPerception)},
           {"hub", Of(Role::kIntention)},
@@ -128,7 +122,7 @@ int LabSystem::WrongTasks() const {
          static_cast<int>(std::ranges::count_if(tasks_, [this](const auto& entry) {
            const auto& [id, task] = entry;
            return task.action != kAction || task.object.category != kCategory ||
-                  !requested_.contains(id);
+                  (hears_all_requests_ && !requested_.contains(id));
          }));
 }
 

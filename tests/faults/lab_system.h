@@ -73,6 +73,8 @@ class LabSystem {
   const std::set<std::string>& acknowledged() const { return acknowledged_; }
   /// Tasks that are not what the user wants, or that no session of the user led to.
   int WrongTasks() const;
+  /// The robot's host is cut off: of sessions that began meanwhile it hears the task alone.
+  void ExpectUnheardRequests() { hears_all_requests_ = false; }
 
   /// Ends intention and looks at its file: notes breaches, and how many sessions it holds.
   void CheckDatabase(Verdict& verdict);
@@ -92,6 +94,7 @@ class LabSystem {
   std::vector<tool::Death> deaths_;
   std::set<std::string> acknowledged_, requested_;
   std::map<std::string, msg::Task> tasks_;
+  bool hears_all_requests_ = true;
   int contradictions_ = 0;  // tasks of one id that differ
   tool::Supervisor supervisor_;
   std::unique_ptr<Bus> bus_;

@@ -124,6 +124,7 @@ void SayFragments(Lab& lab, LabSystem& system, DatagramSocket& socket, const Tri
                   Verdict& verdict) {
   const size_t before = system.deaths().size();
   lab.relay().Change([](LinkFaults& faults) { faults.Cut({0, 1}); });
+  system.ExpectUnheardRequests();
   Mutator mutator(options.seed + 1);
   const int n = std::max(100, options.n / 20);
   SayAll(system, socket, n, [&] { return mutator.HostileFragment(); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace beckon::faults {
@@ -33,7 +34,8 @@ bool StartsWith(const Datagram& datagram, const std::array<uint8_t, 4>& magic) {
 
 /// Where the message begins.
 size_t BodyOf(const Datagram& datagram) {
-  const auto from = datagram.begin() + static_cast<ptrdiff_t>(std::min(kHeader, datagram.size()));
+  const auto from =
+      datagram.begin() + static_cast<std::ptrdiff_t>(std::min(kHeader, datagram.size()));
   const auto zero = std::find(from, datagram.end(), 0);
   return static_cast<size_t>(zero - datagram.begin()) + (zero == datagram.end() ? 0 : 1);
 }
@@ -64,13 +66,14 @@ void Mutator::WriteHugeLength(Datagram& datagram) {
   if (datagram.size() < body + 4) return;
   Datagram length;
   Append(length, Extreme(), 4);
-  std::ranges::copy(
-      length, datagram.begin() + static_cast<ptrdiff_t>(body + Below(datagram.size() - body - 3)));
+  std::ranges::copy(length, datagram.begin() + static_cast<std::ptrdiff_t>(
+                                                   body + Below(datagram.size() - body - 3)));
 }
 
 Datagram Mutator::OtherChannel(const std::vector<Datagram>& real) {
   const Datagram& one = real[Below(real.size())];
-  Datagram made(one.begin(), one.begin() + static_cast<ptrdiff_t>(std::min(kHeader, one.size())));
+  Datagram made(one.begin(),
+                one.begin() + static_cast<std::ptrdiff_t>(std::min(kHeader, one.size())));
   switch (Below(3)) {
     case 0:
       Append(made, kChannels[Below(kChannels.size())]);
@@ -84,7 +87,7 @@ Datagram Mutator::OtherChannel(const std::vector<Datagram>& real) {
       Append(made, "BECKON_TASK");
       return made;
   }
-  const auto body = static_cast<ptrdiff_t>(BodyOf(one));
+  const auto body = static_cast<std::ptrdiff_t>(BodyOf(one));
   made.insert(made.end(), one.begin() + body, one.end());
   return made;
 }
@@ -101,7 +104,7 @@ Datagram Mutator::Change(const std::vector<Datagram>& real) {
     case 2: {  // the beginning of one, the end of another
       const Datagram& other = real[Below(real.size())];
       made.resize(Below(made.size() + 1));
-      made.insert(made.end(), other.begin() + static_cast<ptrdiff_t>(Below(other.size() + 1)),
+      made.insert(made.end(), other.begin() + static_cast<std::ptrdiff_t>(Below(other.size() + 1)),
                   other.end());
       break;
     }
@@ -119,8 +122,8 @@ Datagram Mutator::Change(const std::vector<Datagram>& real) {
       return Junk(Below(10) == 0 ? 60'000 : 400);
     case 7: {  // bytes missing from the middle
       const size_t from = Below(made.size() + 1), n = Below(made.size() - from + 1);
-      made.erase(made.begin() + static_cast<ptrdiff_t>(from),
-                 made.begin() + static_cast<ptrdiff_t>(from + n));
+      made.erase(made.begin() + static_cast<std::ptrdiff_t>(from),
+                 made.begin() + static_cast<std::ptrdiff_t>(from + n));
       break;
     }
     default:  // only the message, not what LCM needs, is hurt

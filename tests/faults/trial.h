@@ -20,7 +20,11 @@ struct Verdict {
   std::string found;                                                  // for the table
   nlohmann::ordered_json details = nlohmann::ordered_json::object();  // counts behind it
   /// Notes a breach; the first one is told in the table.
-  void Breach(const std::string& what);
+  void Breach(const std::string& what) {
+    if (holds) found = what;
+    holds = false;
+    details["breaches"].push_back(what);
+  }
 };
 
 /// The error says why the trial could not be made at all.
