@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "services/base/run_loop.h"
+#include "services/ui_bridge/speech/acoustics.h"
 #include "services/ui_bridge/speech/espeak.h"
 
 namespace beckon::ui_bridge::conformance {
