@@ -132,8 +132,8 @@ Pronunciation WithRoundO(const Pronunciation& pronunciation) {
 
 std::vector<Pronunciation> InAccents(const Pronunciation& pronunciation) {
   std::vector<Pronunciation> accents{pronunciation};
-  // Round first: the "a" of "start" stays as it is where its "r" is silent.
-  for (auto& other : {WithoutR(pronunciation), WithoutR(WithRoundO(pronunciation))}) {
+  // The long "a" of "start" without its "r" is as round as the "o" of "stop".
+  for (auto& other : {WithoutR(pronunciation), WithRoundO(WithoutR(pronunciation))}) {
     if (std::ranges::find(accents, other) == accents.end()) accents.push_back(other);
   }
   return accents;

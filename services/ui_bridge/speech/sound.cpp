@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUsualLevel = 3000;  // root mean square of the loud frames
 constexpr double kMostGain = 31.6;
-constexpr double kHiss = 240;  // 22 dB below that
+constexpr double kHiss = 20;  // 43 dB below that
 constexpr double kLoudShare = 0.9;
 constexpr int kTaps = 16;  // zero crossings on either side
 

@@ -23,7 +23,7 @@ std::vector<uint8_t> WriteWave(const Wave& wave);
 std::vector<int16_t> AtSampleRate(const Wave& wave);
 
 /// Made louder or softer so that its loud parts have the level that the acoustic model is used to,
-/// but by no more than 30 dB; with a soft hiss under it, 22 dB below. The model was made of
+/// but by no more than 30 dB; with a soft hiss under it, 43 dB below. The model was made of
 /// recordings and knows no silence as deep as a good microphone's.
 /// The same samples give the same result.
 std::vector<int16_t> Levelled(std::span<const int16_t> samples);
