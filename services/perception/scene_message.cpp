@@ -15,7 +15,7 @@ constexpr size_t kBytesOfPoint = 6;
 constexpr size_t kBytesOfRimPoint = 7;
 constexpr size_t kSamplesFirst = 40;  // points of an object that its rim takes no room from;
 constexpr size_t kRimsPart = 2;       // of the rest it takes at most this part
-constexpr size_t kMargin = 1700;      // source, table's pose, times, lengths and the seal
+constexpr size_t kMargin = 1500;      // source, table's pose, times, lengths and the seal
 
 /// Every so many-th vertex of a hull that has too many.
 std::vector<Eigen::Vector2d> TableOutline(const Perception& perception) {

@@ -297,12 +297,12 @@ TEST(Codec, FingerprintsAreLocked) {
                                                {"decoding_t", decoding_t::getHash()}};
   const std::map<std::string, uint64_t> locked = {
       {"answer_t", 0xa22727a8afbaf8c6},      {"frame_t", 0x5b22eba1617c64a5},
-      {"history_t", 0xcd16f6d015811a6c},     {"interface_t", 0x8fbf178510e3e991},
-      {"label_t", 0x7d3b00c4161fd9b2},       {"poses_t", 0x715036521295f425},
-      {"query_t", 0xcacf0cc24ccdf064},       {"scene_t", 0x4ef49dbaddf4c015},
+      {"history_t", 0x5b6155e75aae3d83},     {"interface_t", 0x5bb9d9cb715a4dfe},
+      {"label_t", 0x7d3b00c4161fd9b2},       {"poses_t", 0xf16bbccc2d13ec4a},
+      {"query_t", 0xcacf0cc24ccdf064},       {"scene_t", 0xfe744959b9a7ce73},
       {"session_t", 0x1e39e1f4c26e2b7c},     {"status_t", 0x11a1e4a40922e1e7},
       {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67},
-      {"decoding_t", 0x25ccf6a5129af706},    {"highlight_t", 0x3c257a389ea8a20f},
+      {"decoding_t", 0x25ccf6a5129af706},    {"highlight_t", 0x143881ce4f651b17},
       {"profile_t", 0x8c1023ee4c26e13a},     {"stimulus_t", 0x2458e8d2e03de2e2}};
   EXPECT_EQ(now, locked);
 }
