@@ -11,6 +11,7 @@
 #include <beckon/history_t.hpp>
 #include <beckon/interface_t.hpp>
 #include <beckon/label_t.hpp>
+#include <beckon/lease_t.hpp>
 #include <beckon/poses_t.hpp>
 #include <beckon/profile_t.hpp>
 #include <beckon/query_t.hpp>
@@ -294,7 +295,8 @@ TEST(Codec, FingerprintsAreLocked) {
                                                {"profile_t", profile_t::getHash()},
                                                {"highlight_t", highlight_t::getHash()},
                                                {"stimulus_t", stimulus_t::getHash()},
-                                               {"decoding_t", decoding_t::getHash()}};
+                                               {"decoding_t", decoding_t::getHash()},
+                                               {"lease_t", lease_t::getHash()}};
   const std::map<std::string, uint64_t> locked = {
       {"answer_t", 0xa22727a8afbaf8c6},      {"frame_t", 0x5b22eba1617c64a5},
       {"history_t", 0x5b6155e75aae3d83},     {"interface_t", 0x5bb9d9cb715a4dfe},
@@ -303,7 +305,8 @@ TEST(Codec, FingerprintsAreLocked) {
       {"session_t", 0x1e39e1f4c26e2b7c},     {"status_t", 0x11a1e4a40922e1e7},
       {"task_status_t", 0xc7536171eaec0f69}, {"task_t", 0xc938a574d229bb67},
       {"decoding_t", 0x25ccf6a5129af706},    {"highlight_t", 0x143881ce4f651b17},
-      {"profile_t", 0x8c1023ee4c26e13a},     {"stimulus_t", 0x2458e8d2e03de2e2}};
+      {"profile_t", 0x8c1023ee4c26e13a},     {"stimulus_t", 0x2458e8d2e03de2e2},
+      {"lease_t", 0x2b8d439eb12e876f}};
   EXPECT_EQ(now, locked);
 }
 
