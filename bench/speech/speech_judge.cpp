@@ -88,7 +88,7 @@ Status Learn(const Options& options, speech::Recogniser& recogniser,
       if (!trial.example.commands.empty()) examples.push_back(trial.example);
     }
   }
-  std::ofstream(options.learn) << speech::ToToml(Fit(examples, 30));
+  std::ofstream(options.learn) << speech::ToToml(Fit(examples, 3));
   std::printf("fitted to %zu utterances: %s\n", examples.size(), options.learn.c_str());
   return {};
 }
