@@ -9,7 +9,7 @@ namespace beckon::ui_bridge::speech {
 
 struct TurnConfig {
   double accept = 0.45;  // least probability of a command
-  double stop = 0.4;     // of "stop": a false alarm costs a word, a miss may cost more
+  double stop = 0.3;     // of "stop": a false alarm costs a word, a miss may cost more
   double resume = 0.8;   // of "resume": only on purpose
 };
 
