@@ -8,9 +8,9 @@
 namespace beckon::ui_bridge::speech {
 
 struct TurnConfig {
-  double accept = 0.45;  // least probability of a command
-  double stop = 0.3;     // of "stop": a false alarm costs a word, a miss may cost more
-  double resume = 0.8;   // of "resume": only on purpose
+  double accept = 0.6;  // least probability of a command
+  double stop = 0.2;    // of "stop": a false alarm costs a word, a miss may cost more
+  double resume = 0.8;  // of "resume": only on purpose
 };
 
 struct Decision {
